@@ -1,0 +1,386 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSolidRasterPass.h"
+
+#include "vtkNew.h"
+#include "vtkSlicemap.h"
+#include "vtkSlicemapKernel.h"
+#include "vtkVoxelGrid.h"
+#include "vtkVoxelMesh.h"
+
+#include "vtkRasterMeshFetchGLSL.h"
+#include "vtkSolidMasksGLSL.h"
+#include "vtkSolidRasterFragmentGLSL.h"
+#include "vtkSolidRasterResolveGLSL.h"
+#include "vtkSolidRasterVertexGLSL.h"
+#include "vtkTouchedColumnGLSL.h"
+#include "vtkTouchedRasterFragmentGLSL.h"
+#include "vtkTouchedRasterVertexGLSL.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+using vtkVoxelGL::Program;
+
+namespace
+{
+constexpr int SlicesPerMaskTarget = 128;
+constexpr int SlicesPerWindingTarget = 4;
+constexpr int MostTargets = 8;
+constexpr int WordBits = 32;
+
+// Eight targets of this size take 128 MiB.
+constexpr int LargestTile = 1024;
+
+// The anchor is a voxel at a multiple of this, so that parts of a grid see the same numbers as the whole.
+constexpr int AnchorStep = 4096;
+
+// Units of textures.
+constexpr unsigned int ColumnsUnit = 0;
+constexpr unsigned int MaskUnit = 1;
+constexpr unsigned int MeshUnit = 2;
+
+int PowerOfTwoFrom(int n)
+{
+  int power = 1;
+  while (power < n)
+  {
+    power *= 2;
+  }
+  return power;
+}
+
+
+int CeilDivide(int n, int divisor)
+{
+  return (n + divisor - 1) / divisor;
+}
+
+glm::ivec3 GetAnchor(const vtkVoxelGrid& grid)
+{
+  glm::ivec3 anchor = grid.GetFirst();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int remainder = (anchor[axis] % AnchorStep + AnchorStep) % AnchorStep;
+    anchor[axis] -= remainder;
+  }
+  return anchor;
+}
+
+vtkVoxelGL::Texture MakeMaskTable(const vtkVoxelGL::Context& context)
+{
+  std::vector<std::uint32_t> masks;
+  for (int first = 0; first <= SlicesPerMaskTarget; ++first)
+  {
+    for (int word = 0; word < SlicesPerMaskTarget / WordBits; ++word)
+    {
+      const int low = std::clamp(first - word * WordBits, 0, WordBits);
+      masks.push_back(low == WordBits ? 0u : ~0u << low);
+    }
+  }
+  vtkVoxelGL::Texture table(context, GL_TEXTURE_2D);
+  table.Allocate2D(GL_RGBA32UI, SlicesPerMaskTarget + 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+    masks.data());
+  return table;
+}
+}
+
+/// One pass: a rectangle of columns and a range of slices, counted from the first voxel of the grid.
+struct vtkSolidRasterPass::Tile
+{
+  vtkColumnAxes Axes;
+  glm::ivec2 First;
+  glm::ivec2 Columns;
+  int FirstSlice;
+  int Slices;
+  int LastSliceOfGrid; // of the voxels, or one more for the column's end
+};
+
+/// The render targets of a pass, layers of one texture.
+class vtkSolidRasterPass::Targets
+{
+public:
+  Targets(const vtkVoxelGL::Context& context, const glm::ivec2& size, int count, Content content)
+    : Size(size)
+    , Count(count)
+    , IsWinding(content == Content::Winding)
+    , Layers(context, GL_TEXTURE_2D_ARRAY)
+    , Framebuffer(context)
+    , Masks(MakeMaskTable(context))
+  {
+    const bool allocated = this->IsWinding
+      ? this->Layers.Allocate3D(GL_RGBA16F, size.x, size.y, count, GL_RGBA, GL_FLOAT)
+      : this->Layers.Allocate3D(
+          GL_RGBA32UI, size.x, size.y, count, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+    for (int layer = 0; allocated && layer < count; ++layer)
+    {
+      this->Framebuffer.AttachLayer(GL_COLOR_ATTACHMENT0 + layer, this->Layers, layer);
+    }
+    this->Framebuffer.SetDrawBuffers(count);
+    if (!allocated || !this->Framebuffer.IsComplete())
+    {
+      throw std::runtime_error("OpenGL could not make " + std::to_string(count) +
+        " render targets of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+        " pixels.");
+    }
+  }
+
+  void Begin(const glm::ivec2& columns)
+  {
+    this->Framebuffer.Bind();
+    glViewport(0, 0, this->Size.x, this->Size.y);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, columns.x, columns.y);
+    for (int target = 0; target < this->Count; ++target)
+    {
+      const GLuint zeros[4] = { 0, 0, 0, 0 };
+      const GLfloat zero[4] = { 0, 0, 0, 0 };
+      if (this->IsWinding)
+      {
+        glClearBufferfv(GL_COLOR, target, zero);
+      }
+      else
+      {
+        glClearBufferuiv(GL_COLOR, target, zeros);
+      }
+    }
+  }
+
+  void End() { glDisable(GL_SCISSOR_TEST); }
+
+  glm::ivec2 Size;
+  int Count;
+  bool IsWinding;
+  vtkVoxelGL::Texture Layers;
+  vtkVoxelGL::Framebuffer Framebuffer;
+  vtkVoxelGL::Texture Masks;
+};
+
+vtkSolidRasterPass::vtkSolidRasterPass(vtkVoxelGL::Context context)
+  : Context(std::move(context))
+{
+}
+
+bool vtkSolidRasterPass::FillSolid(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis,
+  Rule rule, const Progress& progress)
+{
+  this->StartColumnEnds(target, vtkColumnAxes(axis));
+  return this->Fill(
+    mesh, target, axis, rule == Rule::Parity ? Content::Parity : Content::Winding, progress);
+}
+
+bool vtkSolidRasterPass::Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target,
+  TouchedVoxels operation, const Progress& progress)
+{
+  vtkNew<vtkSlicemap> touched;
+  touched->SetContext(target->GetContext());
+  if (!touched->Allocate(target->GetGrid()))
+  {
+    throw std::runtime_error("There is no room for the touched voxels.");
+  }
+  constexpr int cheapestAxis = 0;
+  if (!this->Fill(mesh, touched, cheapestAxis, Content::Touched, progress))
+  {
+    return false;
+  }
+  return operation == TouchedVoxels::Set ? target->Union(touched) : target->Difference(touched);
+}
+
+bool vtkSolidRasterPass::Fill(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis,
+  Content content, const Progress& progress)
+{
+  const vtkColumnAxes axes(axis);
+  const glm::ivec3 n = axes(target->GetGrid().GetDimensions());
+  const bool withEnds = content != Content::Touched;
+  const int slices = n.z + (withEnds ? 1 : 0);
+
+  GLint drawBuffers = 0;
+  glGetIntegerv(GL_MAX_DRAW_BUFFERS, &drawBuffers);
+  const int mostTargets = std::min<int>(drawBuffers, MostTargets);
+  const int slicesPerTarget =
+    content == Content::Winding ? SlicesPerWindingTarget : SlicesPerMaskTarget;
+  const int count = std::min(mostTargets, CeilDivide(slices, slicesPerTarget));
+  const int slicesPerPass = count * slicesPerTarget;
+
+  GLint largestTexture = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largestTexture);
+  const int tile = std::min<int>(LargestTile, largestTexture);
+  const glm::ivec2 size(
+    PowerOfTwoFrom(std::min(n.x, tile)), PowerOfTwoFrom(std::min(n.y, tile)));
+  Targets targets(this->Context, size, count, content);
+
+  const int tilesU = CeilDivide(n.x, size.x);
+  const int tilesV = CeilDivide(n.y, size.y);
+  const int passes = CeilDivide(slices, slicesPerPass);
+  int done = 0;
+  for (int v = 0; v < n.y; v += size.y)
+  {
+    for (int u = 0; u < n.x; u += size.x)
+    {
+      for (int slice = 0; slice < slices; slice += slicesPerPass)
+      {
+        if (!progress(double(done++) / (tilesU * tilesV * passes)))
+        {
+          return false;
+        }
+        const Tile part{ axes, { u, v }, { std::min(size.x, n.x - u), std::min(size.y, n.y - v) },
+          slice, std::min(slicesPerPass, slices - slice), slices - 1 };
+        this->Draw(mesh, target->GetGrid(), part, content, targets);
+        this->Resolve(target, part, content, targets);
+      }
+    }
+  }
+  return progress(1.0);
+}
+
+void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Tile& tile,
+  Content content, Targets& targets)
+{
+  const bool touched = content == Content::Touched;
+  Program::Defines defines{ { "TARGETS", std::to_string(targets.Count) }, { "REAL", "float" },
+    { "REAL2", "vec2" }, { "REAL3", "vec3" } };
+  if (mesh.HasLowPart())
+  {
+    defines["POINTS_ARE_DOUBLE"] = "1";
+  }
+  if (content == Content::Winding)
+  {
+    defines["WINDING"] = "1";
+  }
+  using Sources = std::vector<std::string>;
+  const Sources vertex = touched ? Sources{ vtkRasterMeshFetchGLSL, vtkTouchedRasterVertexGLSL }
+                                 : Sources{ vtkRasterMeshFetchGLSL, vtkSolidRasterVertexGLSL };
+  const Sources fragment = touched
+    ? Sources{ vtkSolidMasksGLSL, vtkTouchedColumnGLSL, vtkTouchedRasterFragmentGLSL }
+    : targets.IsWinding ? Sources{ vtkSolidRasterFragmentGLSL }
+                        : Sources{ vtkSolidMasksGLSL, vtkSolidRasterFragmentGLSL };
+  Program& program =
+    vtkVoxelGetProgram(this->Context, touched ? "vtkTouchedRaster" : "vtkSolidRaster", defines,
+      { { GL_VERTEX_SHADER, vertex }, { GL_FRAGMENT_SHADER, fragment } });
+  program.Use();
+  mesh.Bind(program, MeshUnit);
+  targets.Masks.Bind(MaskUnit);
+  program.Set("MaskTable", int(MaskUnit));
+
+  const glm::ivec3 anchor = GetAnchor(grid);
+  const glm::dvec3 world(grid.GetIndexToWorld() * glm::dvec4(glm::dvec3(anchor), 1.0));
+  const glm::vec3 high(world);
+  const glm::vec3 low(world - glm::dvec3(high));
+  program.Set("AnchorHigh", std::array<float, 3>{ high.x, high.y, high.z });
+  program.Set("AnchorLow", std::array<float, 3>{ low.x, low.y, low.z });
+  const glm::dmat4 voxelsFromWorld = grid.GetWorldToIndex();
+  const int order[3] = { tile.Axes.U, tile.Axes.V, tile.Axes.Depth };
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::vec3 row(voxelsFromWorld[0][order[i]], voxelsFromWorld[1][order[i]],
+      voxelsFromWorld[2][order[i]]);
+    const std::string name = "VoxelsFromWorld[" + std::to_string(i) + "]";
+    program.Set(name.c_str(), std::array<float, 3>{ row.x, row.y, row.z });
+    const glm::dvec3 reach = glm::dvec3(mesh.GetLargestCoordinate()) + glm::abs(world);
+    largest = std::max(largest, glm::dot(glm::abs(glm::dvec3(row)), reach));
+  }
+  const glm::ivec3 offset = tile.Axes(grid.GetFirst() - anchor);
+  program.Set("TileFirst",
+    std::array<int, 2>{ offset.x + tile.First.x, offset.y + tile.First.y });
+  program.Set("TileColumns", std::array<int, 2>{ tile.Columns.x, tile.Columns.y });
+  program.Set("TileSize", std::array<int, 2>{ targets.Size.x, targets.Size.y });
+  program.Set("FirstSlice", offset.z + tile.FirstSlice);
+  program.Set("LastSlice", tile.LastSliceOfGrid - tile.FirstSlice);
+  program.Set("NumberOfSlices", tile.Slices);
+
+  constexpr double smallestMargin = 2e-3;
+  constexpr double roundings = 16.0;
+  const double margin =
+    std::max(smallestMargin, roundings * std::numeric_limits<float>::epsilon() * largest);
+  program.Set("HalfWidth", static_cast<float>(0.5 + margin));
+
+  vtkVoxelGL::VertexArray vertices(this->Context);
+  vertices.Bind();
+  targets.Begin(tile.Columns);
+  if (targets.IsWinding)
+  {
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE);
+  }
+  else
+  {
+    glEnable(GL_COLOR_LOGIC_OP);
+    glLogicOp(touched ? GL_OR : GL_XOR);
+  }
+  const GLsizei verticesPerTriangle = touched ? 6 : 3;
+  glDrawArrays(
+    GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.GetNumberOfTriangles()) * verticesPerTriangle);
+  glDisable(GL_BLEND);
+  glDisable(GL_COLOR_LOGIC_OP);
+  targets.End();
+}
+
+void vtkSolidRasterPass::Resolve(
+  vtkSlicemap* target, const Tile& tile, Content content, const Targets& targets)
+{
+  const glm::ivec3 n = target->GetGrid().GetDimensions();
+  const int depth = n[tile.Axes.Depth];
+  Program::Defines defines{ { "COLUMN_AXIS", std::to_string(tile.Axes.Depth) } };
+  if (content == Content::Winding)
+  {
+    defines["WINDING"] = "1";
+  }
+  const auto bind = [&](Program& program) {
+    targets.Layers.Bind(ColumnsUnit);
+    program.Set("Columns", int(ColumnsUnit));
+    program.Set("TileFirst", std::array<int, 2>{ tile.First.x, tile.First.y });
+    program.Set("FirstSlice", tile.FirstSlice);
+    program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
+    program.Set("EndSlice", depth);
+  };
+
+  // The box of voxels of this pass, and then of words: all of the padding goes with the last voxels.
+  glm::ivec3 first;
+  glm::ivec3 end;
+  first[tile.Axes.U] = tile.First.x;
+  end[tile.Axes.U] = tile.First.x + tile.Columns.x;
+  first[tile.Axes.V] = tile.First.y;
+  end[tile.Axes.V] = tile.First.y + tile.Columns.y;
+  first[tile.Axes.Depth] = tile.FirstSlice;
+  end[tile.Axes.Depth] = std::min(tile.FirstSlice + tile.Slices, depth);
+  if (first[tile.Axes.Depth] < end[tile.Axes.Depth])
+  {
+    const auto wordsPerRow = static_cast<int>(target->GetWordsPerRow());
+    first.x /= WordBits;
+    end.x = end.x == n.x ? wordsPerRow : end.x / WordBits;
+    const vtkSlicemapKernel resolve("vtkSolidRasterResolve", vtkSolidRasterResolveGLSL, defines);
+    resolve.Run(this->Context, target, { first, end }, bind);
+  }
+
+  const bool withEnds = content != Content::Touched;
+  if (withEnds && tile.FirstSlice <= depth && depth < tile.FirstSlice + tile.Slices)
+  {
+    defines["COLUMN_ENDS"] = "1";
+    const int nu = n[tile.Axes.U];
+    const int endColumn = tile.First.x + tile.Columns.x;
+    const int endWord = endColumn == nu ? static_cast<int>(this->ColumnEnds->GetWordsPerRow())
+                                        : endColumn / WordBits;
+    const vtkSlicemapKernel resolve("vtkSolidRasterResolve", vtkSolidRasterResolveGLSL, defines);
+    resolve.Run(this->Context, this->ColumnEnds,
+      { { tile.First.x / WordBits, tile.First.y, 0 },
+        { endWord, tile.First.y + tile.Columns.y, 1 } },
+      bind);
+  }
+}
+
+double vtkSolidRasterPass::EstimateCost(
+  const vtkVoxelGrid& grid, int axis, const glm::dvec3& projectedAreas) const
+{
+  // A fragment writes a mask of the whole column. Columns along x have their words side by side in
+  // the targets; along y and z every word is gathered bit by bit.
+  constexpr double maskOfWord = 2.0;
+  constexpr std::array<double, 3> resolveOfWord{ 3.0, 120.0, 120.0 };
+  const double wordsOfColumn = grid.GetDimensions()[axis] / double(WordBits);
+  return maskOfWord * wordsOfColumn * projectedAreas[axis] +
+    resolveOfWord[axis] * static_cast<double>(vtkSlicemap::GetNumberOfWords(grid));
+}

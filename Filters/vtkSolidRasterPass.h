@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file vtkSolidRasterPass.h
+ * Private header: solid voxelization by rasterization (OpenGL 3.2), as in Eisemann & Decoret 2008.
+ *
+ * The mesh is drawn along the columns into integer render targets, 128 slices each, as many targets at
+ * once as the context has (eight at most), and combined by logic operations. Longer columns take more
+ * passes, wider grids more tiles. Then the targets are turned to the words of the slicemap.
+ */
+
+#ifndef vtkSolidRasterPass_h
+#define vtkSolidRasterPass_h
+
+#include "vtkSolidPass.h"
+
+class vtkSolidRasterPass : public vtkSolidPass
+{
+public:
+  explicit vtkSolidRasterPass(vtkVoxelGL::Context context);
+
+  bool FillSolid(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Rule rule,
+    const Progress& progress) override;
+  bool Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target, TouchedVoxels operation,
+    const Progress& progress) override;
+  double EstimateCost(
+    const vtkVoxelGrid& grid, int axis, const glm::dvec3& projectedAreas) const override;
+
+private:
+  enum class Content
+  {
+    Parity,
+    Winding,
+    Touched
+  };
+  struct Tile;
+  class Targets;
+
+  bool Fill(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Content content,
+    const Progress& progress);
+  void Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Tile& tile, Content content,
+    Targets& targets);
+  void Resolve(vtkSlicemap* target, const Tile& tile, Content content, const Targets& targets);
+
+  vtkVoxelGL::Context Context;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkSolidRasterPass.h

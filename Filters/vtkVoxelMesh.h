@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file vtkVoxelMesh.h
+ * Private header: the triangles of an input on the GPU, uploaded once for as long as the input stays as
+ * it is.
+ *
+ * Points go up as they are when they are floats. Doubles and other types go up as two floats, the
+ * rounded value and what the rounding took away, which together hold 48 bits.
+ */
+
+#ifndef vtkVoxelMesh_h
+#define vtkVoxelMesh_h
+
+#include "vtkSmartPointer.h"
+#include "vtkVoxelGLObjects.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+class vtkCompositeDataSet;
+class vtkDataObject;
+class vtkPolyData;
+
+class vtkVoxelMesh
+{
+public:
+  enum class Triangulation
+  {
+    Fans, ///< a fan a polygon: parity and winding are right for concave polygons too
+    Exact ///< ear clipping by vtkTriangleFilter: the triangles cover just the polygon
+  };
+
+  /// The polydata of the input: itself, or all leaves of a composite.
+  static std::vector<vtkSmartPointer<vtkPolyData>> GetLeaves(vtkDataObject* input);
+
+  /// Bounds of all points of the input; false when there are none.
+  static bool GetBounds(vtkDataObject* input, double bounds[6]);
+
+  /// Edges with one polygon, and edges with more than two, once equal points are merged.
+  struct BadEdges
+  {
+    vtkIdType Open;
+    vtkIdType NonManifold;
+  };
+  static BadEdges CountBadEdges(vtkDataObject* input);
+
+  /// Puts the triangles of `input` on the GPU, unless they are there already; the context must be
+  /// current. Throws std::runtime_error with a message for the user when the input can't be
+  /// voxelized.
+  void Update(const vtkVoxelGL::Context& context, vtkDataObject* input, Triangulation triangulation);
+
+  std::uint32_t GetNumberOfTriangles() const { return this->NumberOfTriangles; }
+  bool HasLowPart() const { return this->LowPoints; }
+
+  /// Binds the buffer textures to units `unit` to `unit` + 2 and sets the uniforms of
+  /// vtkVoxelMeshFetch.glsl, or of its counterpart in single precision; the program must be in use.
+  void Bind(vtkVoxelGL::Program& program, unsigned int unit) const;
+
+  /// Area of all triangles projected along each of the three axes of index coordinates, in squares
+  /// of voxels; estimated from a fixed sample of the triangles.
+  glm::dvec3 EstimateProjectedAreas(const glm::dmat4& worldToIndex) const;
+
+  /// Largest coordinate, in world units and without sign.
+  double GetLargestCoordinate() const { return this->LargestCoordinate; }
+
+  /// How often triangles were uploaded.
+  int GetNumberOfUploads() const { return this->NumberOfUploads; }
+
+private:
+  struct Identity
+  {
+    const void* Points;
+    const void* Polygons;
+    const void* Strips;
+    std::uint64_t Time;
+    bool operator==(const Identity& o) const
+    {
+      return this->Points == o.Points && this->Polygons == o.Polygons &&
+        this->Strips == o.Strips && this->Time == o.Time;
+    }
+  };
+
+  void UploadPoints(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
+  void UploadTriangles(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
+  void SampleAreas(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
+
+  vtkVoxelGL::Context Context;
+  std::vector<Identity> Uploaded;
+  Triangulation UploadedAs = Triangulation::Fans;
+  vtkVoxelGL::Buffer Points;
+  vtkVoxelGL::Buffer PointsLow;
+  vtkVoxelGL::Buffer Triangles;
+  vtkVoxelGL::Texture PointsTexture;
+  vtkVoxelGL::Texture PointsLowTexture;
+  vtkVoxelGL::Texture TrianglesTexture;
+  std::vector<glm::dvec3> SampledNormals;
+  double AreaOfSample = 1.0;
+  std::uint32_t NumberOfPoints = 0;
+  std::uint32_t NumberOfTriangles = 0;
+  bool LowPoints = false;
+  double LargestCoordinate = 0.0;
+  int NumberOfUploads = 0;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkVoxelMesh.h

@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkVoxelizer
+ * @brief abstract base of the filters that turn geometry into voxels on the GPU
+ *
+ * The input is a vtkPolyData with triangles, triangle strips and polygons, or a composite dataset of
+ * them, all leaves of which go into one grid. Vertices and lines among the cells are ignored. The
+ * output is a vtkImageData.
+ *
+ * <b>Grid.</b> A voxel is the box of size Spacing centred at an image point; it is solid when that
+ * point is inside. The first that is set wins:
+ *  1. ReferenceImage: its whole extent, spacing, origin and direction matrix are copied;
+ *  2. OutputWholeExtent with OutputSpacing, OutputOrigin and OutputDirection;
+ *  3. a box, ModelBounds or else the bounds of the input, cut into voxels by VoxelSize, by
+ *     Resolution, or by SampleDimensions. The voxels' outer faces enclose the box: with
+ *     VoxelSize or Resolution the grid is enlarged evenly to a whole number of voxels, with
+ *     CubicVoxels the other axes of SampleDimensions get the spacing of the coarsest one. Padding
+ *     adds whole voxels on every side.
+ *
+ * <b>Output.</b> Point scalars named "Occupancy": unsigned char, ForegroundValue inside and 0
+ * outside, or VTK_BIT (OutputScalarType). With OutputAttributeType Cell the voxels are the cells of
+ * the image instead, at the same place in space. The image carries its vtkSlicemap, so that filters
+ * of this module behind it work on the GPU without a transfer; with HostOutput off it carries nothing
+ * else. Sub-extents requested by UPDATE_EXTENT equal the same part of the whole.
+ *
+ * <b>Errors.</b> One error that says what is wrong and what to do, and an empty output: no input, no
+ * polygons, NaN or infinite points, an empty or negative grid, a result larger than MemoryLimit, no
+ * OpenGL context.
+ *
+ * Progress is reported and abort honoured between tiles.
+ *
+ * @sa vtkSlicemapSolidVoxelizer vtkSlicemap vtkVoxelContext
+ */
+
+#ifndef vtkVoxelizer_h
+#define vtkVoxelizer_h
+
+#include "vtkImageAlgorithm.h"
+#include "vtkVoxelizationModule.h" // for export macro
+
+#include <memory> // for the implementation
+
+class vtkImageData;
+class vtkRenderWindow;
+class vtkSlicemap;
+class vtkVoxelContext;
+class vtkVoxelMesh;
+struct vtkVoxelGrid;
+
+class VTKVOXELIZATION_EXPORT vtkVoxelizer : public vtkImageAlgorithm
+{
+public:
+  vtkTypeMacro(vtkVoxelizer, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum BackendType
+  {
+    BACKEND_AUTO = 0,
+    BACKEND_RASTER = 1,
+    BACKEND_COMPUTE = 2
+  };
+
+  enum AttributeType
+  {
+    ATTRIBUTE_POINT = 0,
+    ATTRIBUTE_CELL = 1
+  };
+
+  ///@{
+  /**
+   * Number of voxels along x, y and z over the box (ModelBounds or the input's bounds), before
+   * Padding. Default: 64, 64, 64. Zero or less is an error when the filter runs.
+   */
+  vtkSetVector3Macro(SampleDimensions, int);
+  vtkGetVector3Macro(SampleDimensions, int);
+  ///@}
+
+  ///@{
+  /**
+   * Number of voxels along the longest side of the box, voxels being cubes; wins over
+   * SampleDimensions. 0 (default) is off.
+   */
+  vtkSetMacro(Resolution, int);
+  vtkGetMacro(Resolution, int);
+  ///@}
+
+  ///@{
+  /**
+   * Edge length of cubic voxels in world units; wins over Resolution and SampleDimensions. 0
+   * (default) is off.
+   */
+  vtkSetMacro(VoxelSize, double);
+  vtkGetMacro(VoxelSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * The box to voxelize, (xmin, xmax, ymin, ymax, zmin, zmax) in world units. Default: (0, -1, 0, -1,
+   * 0, -1), which stands for the bounds of the input.
+   */
+  vtkSetVector6Macro(ModelBounds, double);
+  vtkGetVector6Macro(ModelBounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether SampleDimensions gives cubes (default): the coarsest of the three spacings is used on all
+   * axes and the box is enlarged evenly. When off each axis has its own spacing.
+   */
+  vtkSetMacro(CubicVoxels, bool);
+  vtkGetMacro(CubicVoxels, bool);
+  vtkBooleanMacro(CubicVoxels, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Voxels of margin on every side of the box. Default: 0.
+   */
+  vtkSetClampMacro(Padding, int, 0, VTK_INT_MAX / 4);
+  vtkGetMacro(Padding, int);
+  ///@}
+
+  ///@{
+  /**
+   * An image whose extent, spacing, origin and direction matrix the output takes over. Its scalars
+   * don't matter. Default: none.
+   */
+  virtual void SetReferenceImage(vtkImageData*);
+  vtkGetObjectMacro(ReferenceImage, vtkImageData);
+  ///@}
+
+  ///@{
+  /**
+   * Index extent of the whole output; with OutputSpacing, OutputOrigin (of index 0, 0, 0) and
+   * OutputDirection (3x3, row major) it fixes the grid. Default: (0, -1, 0, -1, 0, -1), which is off;
+   * spacing 1, origin 0, identity.
+   */
+  vtkSetVector6Macro(OutputWholeExtent, int);
+  vtkGetVector6Macro(OutputWholeExtent, int);
+  vtkSetVector3Macro(OutputSpacing, double);
+  vtkGetVector3Macro(OutputSpacing, double);
+  vtkSetVector3Macro(OutputOrigin, double);
+  vtkGetVector3Macro(OutputOrigin, double);
+  vtkSetVectorMacro(OutputDirection, double, 9);
+  vtkGetVectorMacro(OutputDirection, double, 9);
+  ///@}
+
+  ///@{
+  /**
+   * Value of the voxels that are set, 1 (default) to 255; those outside are 0.
+   */
+  vtkSetClampMacro(ForegroundValue, int, 1, 255);
+  vtkGetMacro(ForegroundValue, int);
+  ///@}
+
+  ///@{
+  /**
+   * VTK_UNSIGNED_CHAR (default) or VTK_BIT, which needs an eighth of the memory.
+   */
+  virtual void SetOutputScalarType(int type);
+  vtkGetMacro(OutputScalarType, int);
+  void SetOutputScalarTypeToUnsignedChar() { this->SetOutputScalarType(VTK_UNSIGNED_CHAR); }
+  void SetOutputScalarTypeToBit() { this->SetOutputScalarType(VTK_BIT); }
+  ///@}
+
+  ///@{
+  /**
+   * Whether voxels are the points of the output (default) or its cells.
+   */
+  vtkSetClampMacro(OutputAttributeType, int, ATTRIBUTE_POINT, ATTRIBUTE_CELL);
+  vtkGetMacro(OutputAttributeType, int);
+  void SetOutputAttributeTypeToPoint() { this->SetOutputAttributeType(ATTRIBUTE_POINT); }
+  void SetOutputAttributeTypeToCell() { this->SetOutputAttributeType(ATTRIBUTE_CELL); }
+  ///@}
+
+  ///@{
+  /**
+   * Whether the result is read back into the output's scalars (default). When off the output has
+   * geometry and a vtkSlicemap, but no arrays.
+   */
+  vtkSetMacro(HostOutput, bool);
+  vtkGetMacro(HostOutput, bool);
+  vtkBooleanMacro(HostOutput, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Raster draws the mesh into integer render targets (OpenGL 3.2); Compute runs compute shaders in
+   * double precision (OpenGL 4.3). Auto (default) takes Compute where the context has it.
+   */
+  vtkSetClampMacro(Backend, int, BACKEND_AUTO, BACKEND_COMPUTE);
+  vtkGetMacro(Backend, int);
+  void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
+  void SetBackendToRaster() { this->SetBackend(BACKEND_RASTER); }
+  void SetBackendToCompute() { this->SetBackend(BACKEND_COMPUTE); }
+  ///@}
+
+  ///@{
+  /**
+   * The window in whose OpenGL context to work. Default: none, which takes the headless context that
+   * the process shares (see vtkVoxelContext).
+   */
+  virtual void SetRenderWindow(vtkRenderWindow* window);
+  vtkRenderWindow* GetRenderWindow();
+  ///@}
+
+  ///@{
+  /**
+   * When on (default), a mesh that let columns leak is examined, and a warning names the number of its
+   * open and of its non-manifold edges. Leaks are found at no cost while voxelizing, so closed meshes
+   * pay nothing.
+   */
+  vtkSetMacro(CheckWatertight, bool);
+  vtkGetMacro(CheckWatertight, bool);
+  vtkBooleanMacro(CheckWatertight, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Most bytes of host memory that the output may take; a larger one is refused before any work. 0
+   * (default) stands for what the system says is free.
+   */
+  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  ///@}
+
+  /**
+   * Number of voxels set by the last run; counted on the GPU when first asked for. -1 before any run.
+   */
+  vtkIdType GetNumberOfFilledVoxels();
+
+  /**
+   * Number of triangles that the last run voxelized.
+   */
+  vtkIdType GetNumberOfTriangles();
+
+  /**
+   * Name of the OpenGL renderer that the filter works on, such as "llvmpipe (LLVM 15.0.6, 256 bits)";
+   * an empty string when there is none.
+   */
+  const char* GetRendererName();
+
+  /**
+   * Backend of the last run: BACKEND_RASTER or BACKEND_COMPUTE; BACKEND_AUTO before any run.
+   */
+  vtkGetMacro(UsedBackend, int);
+
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkVoxelizer();
+  ~vtkVoxelizer() override;
+
+  /**
+   * Fills `slicemap`, which is not yet allocated, with the voxels of `mesh` on `grid`, in the current
+   * context. Returns false after having reported an error, or when aborted.
+   */
+  virtual bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) = 0;
+
+  /**
+   * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into fans,
+   * which keep parity and winding also for concave polygons, and are cheaper.
+   */
+  virtual bool NeedsExactTriangulation() { return false; }
+
+  /**
+   * Backend to run: Backend, with Auto resolved for the current context. Reports an error and returns
+   * BACKEND_AUTO when the context can't do what was asked for.
+   */
+  int ResolveBackend();
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  vtkVoxelContext* GetContext();
+
+  /**
+   * For Voxelize: the fraction done, from 0 to 1; false when the filter was told to stop.
+   */
+  bool ReportProgress(double fraction);
+
+private:
+  vtkVoxelizer(const vtkVoxelizer&) = delete;
+  void operator=(const vtkVoxelizer&) = delete;
+
+  vtkVoxelGrid GridFromBox(const double box[6]) const;
+  vtkVoxelGrid GetWholeGrid(vtkDataObject* input) const;
+  vtkVoxelGrid GetCheckedGrid(vtkDataObject* input) const;
+  void CheckMemory(const vtkVoxelGrid& grid) const;
+  vtkSlicemap* TakeSlicemap();
+  void FillOutput(vtkImageData* output, vtkSlicemap* slicemap);
+
+  int SampleDimensions[3] = { 64, 64, 64 };
+  int Resolution = 0;
+  double VoxelSize = 0.0;
+  double ModelBounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 };
+  bool CubicVoxels = true;
+  int Padding = 0;
+  vtkImageData* ReferenceImage = nullptr;
+  int OutputWholeExtent[6] = { 0, -1, 0, -1, 0, -1 };
+  double OutputSpacing[3] = { 1.0, 1.0, 1.0 };
+  double OutputOrigin[3] = { 0.0, 0.0, 0.0 };
+  double OutputDirection[9] = { 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 };
+  int ForegroundValue = 1;
+  int OutputScalarType = VTK_UNSIGNED_CHAR;
+  int OutputAttributeType = ATTRIBUTE_POINT;
+  bool HostOutput = true;
+  int Backend = BACKEND_AUTO;
+  int UsedBackend = BACKEND_AUTO;
+  bool CheckWatertight = true;
+  vtkTypeInt64 MemoryLimit = 0;
+
+  struct Internals;
+  std::unique_ptr<Internals> State;
+};
+
+#endif

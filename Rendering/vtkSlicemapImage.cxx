@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSlicemapImage.h"
+
+#include "vtkBitArray.h"
+#include "vtkSMPTools.h"
+#include "vtkSlicemap.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVoxelGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bitset>
+#include <cstdlib>
+#include <cstring>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace
+{
+constexpr int WordBits = 32;
+
+/**
+ * Where the first touch of fresh pages is most of the cost of a large array, huge pages make it
+ * several times cheaper.
+ */
+unsigned char* AllocateBytes(std::int64_t bytes)
+{
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  constexpr std::size_t hugePage = std::size_t(1) << 21;
+  if (std::size_t(bytes) >= 2 * hugePage)
+  {
+    const std::size_t rounded = (std::size_t(bytes) + hugePage - 1) / hugePage * hugePage;
+    void* memory = std::aligned_alloc(hugePage, rounded);
+    if (memory)
+    {
+      madvise(memory, rounded, MADV_HUGEPAGE);
+    }
+    return static_cast<unsigned char*>(memory);
+  }
+#endif
+  return static_cast<unsigned char*>(std::malloc(std::max<std::size_t>(1, bytes)));
+}
+
+using ByteTable = std::array<std::uint64_t, 256>;
+
+/**
+ * For each byte of bits, the eight values it stands for, in memory order.
+ */
+ByteTable MakeValueTable(int foregroundValue)
+{
+  ByteTable table;
+  for (int bits = 0; bits < 256; ++bits)
+  {
+    std::array<unsigned char, 8> values;
+    for (int i = 0; i < 8; ++i)
+    {
+      values[i] = static_cast<unsigned char>((bits >> i & 1) * foregroundValue);
+    }
+    std::memcpy(&table[bits], values.data(), 8);
+  }
+  return table;
+}
+
+void ExpandRow(const std::uint32_t* words, int n, const ByteTable& table, unsigned char* out)
+{
+  int x = 0;
+  for (; x + WordBits <= n; x += WordBits, out += WordBits)
+  {
+    const std::uint32_t word = *words++;
+    const std::array<std::uint64_t, 4> values{ table[word & 255], table[word >> 8 & 255],
+      table[word >> 16 & 255], table[word >> 24] };
+    std::memcpy(out, values.data(), WordBits);
+  }
+  for (int bit = 0; x < n; ++x, ++bit)
+  {
+    *out++ = static_cast<unsigned char>(table[*words >> bit & 1]);
+  }
+}
+
+std::uint32_t ReversedBits(std::uint32_t x)
+{
+  x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+  x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+  x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+  x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+  return x >> 16 | x << 16;
+}
+
+/**
+ * Rows one after the other without gaps, the most significant bit of a byte first, as vtkBitArray
+ * has them. Begins at a byte's first bit.
+ */
+void ExpandRowsToBits(const std::uint32_t* words, std::int64_t wordsPerRow, std::int64_t rows,
+  int n, unsigned char* out)
+{
+  std::uint64_t pending = 0;
+  int count = 0;
+  for (std::int64_t row = 0; row < rows; ++row, words += wordsPerRow)
+  {
+    for (int x = 0; x < n; x += WordBits)
+    {
+      const int bits = std::min(WordBits, n - x);
+      const std::uint64_t reversed = ReversedBits(words[x / WordBits]) >> (WordBits - bits);
+      pending = pending << bits | reversed;
+      for (count += bits; count >= 8; count -= 8)
+      {
+        *out++ = static_cast<unsigned char>(pending >> (count - 8));
+      }
+    }
+  }
+  if (count)
+  {
+    *out = static_cast<unsigned char>(pending << (8 - count));
+  }
+}
+}
+
+namespace vtkSlicemapImage
+{
+vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
+{
+  const std::int64_t voxels = grid.GetNumberOfVoxels();
+  const bool isBit = scalarType == VTK_BIT;
+  unsigned char* memory = AllocateBytes(isBit ? (voxels + 7) / 8 : voxels);
+  if (!memory)
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkDataArray> array;
+  if (isBit)
+  {
+    auto bits = vtkSmartPointer<vtkBitArray>::New();
+    bits->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+    array = bits;
+  }
+  else
+  {
+    auto values = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    values->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+    array = values;
+  }
+  array->SetName("Occupancy");
+  return array;
+}
+
+void Expand(const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue,
+  vtkDataArray* array)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t rows = std::int64_t(n.y) * n.z;
+  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
+  if (auto* bits = vtkBitArray::SafeDownCast(array))
+  {
+    // Eight rows end at a whole byte.
+    unsigned char* out = bits->GetPointer(0);
+    vtkSMPTools::For(0, (rows + 7) / 8, [&](vtkIdType begin, vtkIdType end) {
+      const std::int64_t first = std::int64_t(begin) * 8;
+      ExpandRowsToBits(words + first * wordsPerRow, wordsPerRow,
+        std::min<std::int64_t>(std::int64_t(end) * 8, rows) - first, n.x, out + first * n.x / 8);
+    });
+    return;
+  }
+  const ByteTable table = MakeValueTable(foregroundValue);
+  unsigned char* out = static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0);
+  vtkSMPTools::For(0, rows, [&](vtkIdType begin, vtkIdType end) {
+    for (vtkIdType row = begin; row < end; ++row)
+    {
+      ExpandRow(words + row * wordsPerRow, n.x, table, out + std::int64_t(row) * n.x);
+    }
+  });
+}
+
+std::int64_t Count(const std::uint32_t* words, std::int64_t numberOfWords)
+{
+  std::atomic<std::int64_t> total{ 0 };
+  vtkSMPTools::For(0, numberOfWords, [&](vtkIdType begin, vtkIdType end) {
+    std::int64_t count = 0;
+    for (vtkIdType i = begin; i < end; ++i)
+    {
+      count += static_cast<std::int64_t>(std::bitset<WordBits>(words[i]).count());
+    }
+    total += count;
+  });
+  return total;
+}
+
+void Pack(vtkDataArray* array, const vtkVoxelGrid& grid, std::uint32_t* words)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t rows = std::int64_t(n.y) * n.z;
+  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
+  auto* bytes = vtkUnsignedCharArray::SafeDownCast(array);
+  const bool plainBytes = bytes && bytes->GetNumberOfComponents() == 1;
+  vtkSMPTools::For(0, rows, [&](vtkIdType begin, vtkIdType end) {
+    for (vtkIdType row = begin; row < end; ++row)
+    {
+      std::uint32_t* out = words + row * wordsPerRow;
+      std::fill_n(out, wordsPerRow, 0u);
+      const std::int64_t first = std::int64_t(row) * n.x;
+      for (int x = 0; x < n.x; ++x)
+      {
+        const bool set = plainBytes ? *bytes->GetPointer(first + x) != 0
+                                    : array->GetComponent(first + x, 0) != 0.0;
+        out[x / WordBits] |= std::uint32_t(set) << x % WordBits;
+      }
+    }
+  });
+}
+}

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file vtkSlicemapImage.h
+ * Private header: between the words of a slicemap and the arrays of an image, on the host, with all
+ * threads of vtkSMPTools.
+ */
+
+#ifndef vtkSlicemapImage_h
+#define vtkSlicemapImage_h
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+
+class vtkDataArray;
+struct vtkVoxelGrid;
+
+namespace vtkSlicemapImage
+{
+/**
+ * Room for one value a voxel of type VTK_UNSIGNED_CHAR or VTK_BIT, not initialised, named
+ * "Occupancy". Null when there is no memory for it.
+ */
+vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType);
+
+/**
+ * Bits to an array made by NewArray.
+ */
+void Expand(const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue,
+  vtkDataArray* array);
+
+/**
+ * Number of set bits.
+ */
+std::int64_t Count(const std::uint32_t* words, std::int64_t numberOfWords);
+
+/**
+ * Bits are set where the first component of the array is not zero. Padding bits are cleared.
+ */
+void Pack(vtkDataArray* array, const vtkVoxelGrid& grid, std::uint32_t* words);
+}
+
+#endif
+// VTK-HeaderTest-Exclude: vtkSlicemapImage.h

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkVoxelGrid.h"
+
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+
+#include <cmath>
+#include <sstream>
+
+vtkVoxelGrid vtkVoxelGrid::FromImage(vtkImageData* image)
+{
+  vtkVoxelGrid grid;
+  image->GetExtent(grid.Extent.data());
+  image->GetSpacing(&grid.Spacing[0]);
+  image->GetOrigin(&grid.Origin[0]);
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      grid.Direction[column][row] = image->GetDirectionMatrix()->GetElement(row, column);
+    }
+  }
+  return grid;
+}
+
+void vtkVoxelGrid::ApplyTo(vtkImageData* image) const
+{
+  image->SetExtent(
+    Extent[0], Extent[1], Extent[2], Extent[3], Extent[4], Extent[5]);
+  image->SetSpacing(this->Spacing.x, this->Spacing.y, this->Spacing.z);
+  image->SetOrigin(this->Origin.x, this->Origin.y, this->Origin.z);
+  const auto rows = this->GetDirectionRows();
+  image->SetDirectionMatrix(rows.data());
+}
+
+std::array<double, 9> vtkVoxelGrid::GetDirectionRows() const
+{
+  std::array<double, 9> rows;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      rows[3 * row + column] = this->Direction[column][row];
+    }
+  }
+  return rows;
+}
+
+std::int64_t vtkVoxelGrid::GetNumberOfVoxels() const
+{
+  const glm::ivec3 n = this->GetDimensions();
+  return this->IsEmpty() ? 0 : std::int64_t(n.x) * n.y * n.z;
+}
+
+vtkVoxelGrid vtkVoxelGrid::WithExtent(const std::array<int, 6>& extent) const
+{
+  vtkVoxelGrid grid = *this;
+  grid.Extent = extent;
+  return grid;
+}
+
+vtkVoxelGrid vtkVoxelGrid::VoxelsToCells() const
+{
+  vtkVoxelGrid grid = *this;
+  for (const int upper : { 1, 3, 5 })
+  {
+    ++grid.Extent[upper];
+  }
+  grid.Origin -= this->Direction * (0.5 * this->Spacing);
+  return grid;
+}
+
+vtkVoxelGrid vtkVoxelGrid::CellsToVoxels() const
+{
+  vtkVoxelGrid grid = *this;
+  for (const int upper : { 1, 3, 5 })
+  {
+    --grid.Extent[upper];
+  }
+  grid.Origin += this->Direction * (0.5 * this->Spacing);
+  return grid;
+}
+
+glm::dmat4 vtkVoxelGrid::GetIndexToWorld() const
+{
+  const glm::dmat3 axes = this->Direction *
+    glm::dmat3(this->Spacing.x, 0, 0, 0, this->Spacing.y, 0, 0, 0, this->Spacing.z);
+  glm::dmat4 matrix(axes);
+  matrix[3] = glm::dvec4(this->Origin, 1.0);
+  return matrix;
+}
+
+glm::dmat4 vtkVoxelGrid::GetWorldToIndex() const
+{
+  // Axis by axis, so that grids along the axes get the plain (x - origin) / spacing.
+  const glm::dmat3 scale(
+    1.0 / this->Spacing.x, 0, 0, 0, 1.0 / this->Spacing.y, 0, 0, 0, 1.0 / this->Spacing.z);
+  const glm::dmat3 axes = scale * glm::inverse(this->Direction);
+  glm::dmat4 matrix(axes);
+  matrix[3] = glm::dvec4(-(axes * this->Origin), 1.0);
+  return matrix;
+}
+
+double vtkVoxelGrid::GetVoxelVolume() const
+{
+  return std::abs(glm::determinant(glm::dmat3(this->GetIndexToWorld())));
+}
+
+bool vtkVoxelGrid::IsSameAs(const vtkVoxelGrid& other) const
+{
+  constexpr double tolerance = 1e-9;
+  const double scale = glm::length(this->Spacing);
+  const auto near = [](const auto& a, const auto& b, double allowed) {
+    return glm::length(a - b) <= allowed;
+  };
+  bool same = this->Extent == other.Extent &&
+    near(this->Spacing, other.Spacing, tolerance * scale) &&
+    near(this->Origin, other.Origin, tolerance * (scale + glm::length(this->Origin)));
+  for (int column = 0; column < 3; ++column)
+  {
+    same = same && near(this->Direction[column], other.Direction[column], tolerance);
+  }
+  return same;
+}
+
+std::string vtkVoxelGrid::Describe() const
+{
+  std::ostringstream text;
+  text << "extent (" << this->Extent[0];
+  for (int i = 1; i < 6; ++i)
+  {
+    text << ", " << this->Extent[i];
+  }
+  const auto write = [&text](const char* name, const glm::dvec3& v) {
+    text << ", " << name << " (" << v.x << ", " << v.y << ", " << v.z << ")";
+  };
+  text << ")";
+  write("spacing", this->Spacing);
+  write("origin", this->Origin);
+  if (this->Direction != glm::dmat3(1.0))
+  {
+    const auto rows = this->GetDirectionRows();
+    text << ", direction (" << rows[0];
+    for (int i = 1; i < 9; ++i)
+    {
+      text << ", " << rows[i];
+    }
+    text << ")";
+  }
+  return text.str();
+}

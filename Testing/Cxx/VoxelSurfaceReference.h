@@ -1,0 +1,51 @@
+/**
+ * @file   VoxelSurfaceReference.h
+ * @brief  Where the surface is: distances from voxel centres, and the voxels it touches.
+ *
+ * Everything is in index coordinates, so one unit is one voxel, and in double arithmetic. The
+ * results are good to about 1e-12 times the largest index coordinate of the mesh.
+ */
+#ifndef VoxelSurfaceReference_h
+#define VoxelSurfaceReference_h
+
+#include "VoxelReference.h"
+
+#include <vector>
+
+namespace VoxelReference
+{
+
+/// Euclidean distance from a point to a triangle, which may be degenerate.
+double DistanceToTriangle(const Vector& point, const Triangle& triangle);
+
+/**
+ * Half the edge of the smallest cube around `centre` that touches the triangle: the distance in the
+ * maximum norm. So a triangle touches the closed voxel at `centre` iff this is <= 0.5. Found by the
+ * separating axis theorem on the 13 axes of a cube and a triangle.
+ */
+double CubeDistanceToTriangle(const Vector& centre, const Triangle& triangle);
+
+/// Euclidean distance in voxels from each voxel's centre to the surface; infinity beyond `reach`.
+/// The voxels may come in any order.
+std::vector<double> DistanceToSurface(vtkPolyData* mesh, const Grid& grid,
+  const std::vector<Voxel>& voxels, double reach = 1.0, int threads = DefaultThreads);
+
+/// The bits of TouchedVoxelsReference.
+enum Touch : unsigned char
+{
+  TouchedNearly = 1, ///< the surface touches the closed voxel grown by NearMargin on all sides
+  TouchedSurely = 2  ///< the surface touches the voxel shrunk by SureMargin on all sides
+};
+constexpr double NearMargin = 1e-5;
+constexpr double SureMargin = 1e-9;
+
+/**
+ * For each voxel 0 (not touched), TouchedNearly, or TouchedNearly | TouchedSurely.
+ * An over-conservative result has to hold all surely touched voxels, an under-conservative one none
+ * of them; voxels that are touched nearly, but not surely, are rounding's to decide.
+ */
+Volume TouchedVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads = DefaultThreads);
+
+}
+
+#endif
