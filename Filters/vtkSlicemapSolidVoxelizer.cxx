@@ -11,6 +11,7 @@
 #include "vtkVoxelContext.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
+#include "vtkVoxelMeshEdges.h"
 
 #include "vtkSolidVoteGLSL.h"
 
@@ -64,15 +65,19 @@ bool vtkSlicemapSolidVoxelizer::FillByVote(
   vtkSolidPass& pass, const vtkVoxelMesh& mesh, vtkSlicemap* slicemap)
 {
   const auto context = this->GetContext()->GetRecord();
-  std::array<vtkNew<vtkSlicemap>, 3> solids;
+  // The first three are the mesh along each axis, the last one its caps.
+  std::array<vtkNew<vtkSlicemap>, 4> solids;
   std::array<vtkSmartPointer<vtkSlicemap>, 3> leaks;
-  for (int axis = 0; axis < 3; ++axis)
+  for (auto& solid : solids)
   {
-    solids[axis]->SetContext(slicemap->GetContext());
-    if (!solids[axis]->Allocate(slicemap->GetGrid()))
+    solid->SetContext(slicemap->GetContext());
+    if (!solid->Allocate(slicemap->GetGrid()))
     {
       return false;
     }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
     const auto progress = [&](double done) { return this->ReportProgress((axis + done) / 4.0); };
     if (!pass.FillSolid(mesh, solids[axis], axis, vtkSolidPass::Rule::Parity, progress))
     {
@@ -81,19 +86,34 @@ bool vtkSlicemapSolidVoxelizer::FillByVote(
     leaks[axis] = pass.GetColumnEnds();
     this->NumberOfLeakingColumns += leaks[axis]->GetNumberOfFilledVoxels();
   }
+  const auto caps =
+    vtkVoxelMeshEdges(vtkVoxelMesh::GetLeaves(this->GetInputDataObject(0, 0))).MakeCaps();
+  if (caps->GetNumberOfPolys() > 0)
+  {
+    vtkVoxelMesh capMesh;
+    capMesh.Update(context, caps, vtkVoxelMesh::Triangulation::Fans);
+    pass.FillSolid(capMesh, solids[3], 0, vtkSolidPass::Rule::Parity,
+      [&](double) { return this->ReportProgress(0.75); });
+  }
+  else
+  {
+    solids[3]->GetBuffer().Fill(0);
+  }
+
   const vtkSlicemapKernel vote("vtkSolidVote", vtkSolidVoteGLSL);
   std::vector<vtkVoxelGL::Texture> textures;
-  for (int axis = 0; axis < 3; ++axis)
+  for (auto& solid : solids)
   {
-    textures.push_back(vtkSlicemapTexture(solids[axis]));
+    textures.push_back(vtkSlicemapTexture(solid));
   }
-  for (int axis = 0; axis < 3; ++axis)
+  for (const auto& leak : leaks)
   {
-    textures.push_back(vtkSlicemapTexture(leaks[axis]));
+    textures.push_back(vtkSlicemapTexture(leak));
   }
   vote.Run(context, slicemap, [&](vtkVoxelGL::Program& program) {
-    const char* const names[] = { "AlongX", "AlongY", "AlongZ", "LeaksX", "LeaksY", "LeaksZ" };
-    for (int unit = 0; unit < 6; ++unit)
+    const char* const names[] = { "AlongX", "AlongY", "AlongZ", "Caps", "LeaksX", "LeaksY",
+      "LeaksZ" };
+    for (int unit = 0; unit < int(textures.size()); ++unit)
     {
       textures[unit].Bind(unit);
       program.Set(names[unit], unit);
@@ -165,9 +185,10 @@ void vtkSlicemapSolidVoxelizer::WarnOfLeaks()
   {
     return;
   }
-  const auto edges = vtkVoxelMesh::CountBadEdges(this->GetInputDataObject(0, 0));
+  const vtkVoxelMeshEdges edges(vtkVoxelMesh::GetLeaves(this->GetInputDataObject(0, 0)));
   vtkWarningMacro("The mesh is not closed: it has "
-    << edges.Open << " open and " << edges.NonManifold << " non-manifold edges, and "
+    << edges.GetNumberOfOpenEdges() << " open and " << edges.GetNumberOfNonManifoldEdges()
+    << " non-manifold edges, and "
     << this->NumberOfLeakingColumns << " columns of voxels leak through. Close the mesh, for "
     << "instance by vtkFillHolesFilter, or set the fill rule to Vote.");
 }

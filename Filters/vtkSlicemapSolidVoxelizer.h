@@ -31,7 +31,9 @@
  *
  * <b>Fill rules.</b> Parity is the paper's: where closed surfaces overlap, the symmetric difference.
  * NonZero uses the winding number, and gives the union of consistently oriented closed surfaces. Vote
- * is for meshes with holes: parity along all three axes, columns that leak abstain, the majority wins.
+ * is for dirty meshes, with holes or inner walls, where a single axis leaks whole columns: parity along
+ * all three axes, columns that leak abstain, and the majority wins. Where it does not lead by two votes,
+ * the mesh with caps on its holes decides, cones over the edges that have an odd number of polygons.
  */
 
 #ifndef vtkSlicemapSolidVoxelizer_h

@@ -1,8 +1,10 @@
 // The vote of the three column axes, for meshes with holes: in each voxel the axes whose column does not
-// leak have a vote each, and the majority wins; a draw is decided by all three. A kernel of
-// vtkSlicemapKernel.
+// leak have a vote each. Where neither side leads by two votes, the mesh with caps on its holes
+// decides. A kernel of vtkSlicemapKernel.
 //
 // AlongX, AlongY, AlongZ  solids by parity along each axis, words, four a texel
+// Caps                    the caps' solid along x, likewise: AlongX and Caps together are that of the
+//                         capped mesh
 // LeaksX, LeaksY, LeaksZ  words of one bit a column, four a texel, set where the column leaks, in the
 //                         layout of vtkSolidPass::GetColumnEnds
 // Size                    number of voxels along x, y and z
@@ -11,6 +13,7 @@
 uniform usamplerBuffer AlongX;
 uniform usamplerBuffer AlongY;
 uniform usamplerBuffer AlongZ;
+uniform usamplerBuffer Caps;
 uniform usamplerBuffer LeaksX;
 uniform usamplerBuffer LeaksY;
 uniform usamplerBuffer LeaksZ;
@@ -38,11 +41,10 @@ uint kernel(uvec3 word)
   uint votesY = ~leakWord(LeaksY, word.z * WordsPerRow + word.x);
   uint votesZ = ~leakWord(LeaksZ, word.y * WordsPerRow + word.x);
 
+  uint capped = x ^ sourceWord(Caps, word);
   uint inside = (x & votesX) | (y & votesY) | (z & votesZ);
   uint outside = (~x & votesX) | (~y & votesY) | (~z & votesZ);
-  uint twoInside = atLeastTwo(x & votesX, y & votesY, z & votesZ);
-  uint twoOutside = atLeastTwo(~x & votesX, ~y & votesY, ~z & votesZ);
-  uint won = twoInside | (inside & ~outside);
-  uint draw = ~twoInside & ~twoOutside & ~(inside ^ outside);
-  return (won | (draw & atLeastTwo(x, y, z))) & slicemapRange(word.x, 0, Size.x);
+  uint insideLeads = atLeastTwo(x & votesX, y & votesY, z & votesZ) & ~outside;
+  uint outsideLeads = atLeastTwo(~x & votesX, ~y & votesY, ~z & votesZ) & ~inside;
+  return (insideLeads | (capped & ~outsideLeads)) & slicemapRange(word.x, 0, Size.x);
 }

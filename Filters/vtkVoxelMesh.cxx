@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVoxelMesh.h"
 
-#include "vtkAppendPolyData.h"
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkFeatureEdges.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
-#include "vtkStaticCleanPolyData.h"
 #include "vtkTriangleFilter.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
@@ -190,34 +187,6 @@ bool vtkVoxelMesh::GetBounds(vtkDataObject* input, double bounds[6])
   }
   box.GetBounds(bounds);
   return box.IsValid() != 0;
-}
-
-vtkVoxelMesh::BadEdges vtkVoxelMesh::CountBadEdges(vtkDataObject* input)
-{
-  vtkNew<vtkAppendPolyData> all;
-  for (const auto& leaf : GetLeaves(input))
-  {
-    all->AddInputData(leaf);
-  }
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->PassVertsOff();
-  triangles->PassLinesOff();
-  triangles->SetInputConnection(all->GetOutputPort());
-  vtkNew<vtkStaticCleanPolyData> merge;
-  merge->SetTolerance(0.0);
-  merge->SetInputConnection(triangles->GetOutputPort());
-  const auto count = [&merge](bool open) {
-    vtkNew<vtkFeatureEdges> edges;
-    edges->SetInputConnection(merge->GetOutputPort());
-    edges->SetBoundaryEdges(open);
-    edges->SetNonManifoldEdges(!open);
-    edges->FeatureEdgesOff();
-    edges->ManifoldEdgesOff();
-    edges->ColoringOff();
-    edges->Update();
-    return edges->GetOutput()->GetNumberOfLines();
-  };
-  return { count(true), count(false) };
 }
 
 void vtkVoxelMesh::Update(

@@ -40,14 +40,6 @@ public:
   /// Bounds of all points of the input; false when there are none.
   static bool GetBounds(vtkDataObject* input, double bounds[6]);
 
-  /// Edges with one polygon, and edges with more than two, once equal points are merged.
-  struct BadEdges
-  {
-    vtkIdType Open;
-    vtkIdType NonManifold;
-  };
-  static BadEdges CountBadEdges(vtkDataObject* input);
-
   /// Puts the triangles of `input` on the GPU, unless they are there already; the context must be
   /// current. Throws std::runtime_error with a message for the user when the input can't be
   /// voxelized.
