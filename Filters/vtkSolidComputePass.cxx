@@ -89,35 +89,59 @@ void BindSlab(vtkSlicemap* slicemap, GLuint index, int firstSlice, int slices)
     GL_SHADER_STORAGE_BUFFER, index, firstSlice * slice, slices * slice);
 }
 
-void SetIndexFromWorld(Program& program, const glm::dmat4& matrix, const vtkColumnAxes& axes)
+/// The swizzle of the axes where each of them depends on one world axis alone, its own; else empty.
+std::string GetAlignedAxes(const glm::dmat4& matrix, const vtkColumnAxes& axes)
+{
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      if (row != column && matrix[column][row] != 0.0)
+      {
+        return {};
+      }
+    }
+  }
+  const char* const names = "xyz";
+  return { names[axes.U], names[axes.V], names[axes.Depth] };
+}
+
+void SetIndexFromWorld(
+  Program& program, const glm::dmat4& matrix, const vtkColumnAxes& axes, bool aligned)
 {
   const std::array<int, 3> order{ axes.U, axes.V, axes.Depth };
   for (int i = 0; i < 3; ++i)
   {
     const int row = order[i];
+    const double first = aligned ? matrix[row][row] : matrix[0][row];
     const std::string name = "IndexFromWorld[" + std::to_string(i) + "]";
     program.Set(name.c_str(),
-      std::array<double, 4>{ matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row] });
+      std::array<double, 4>{ first, matrix[1][row], matrix[2][row], matrix[3][row] });
   }
 }
 
-/// By how much voxels are grown so that rounding never makes them miss a triangle; in voxels.
-double GetMargin(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid)
+/// Largest sum of terms, without their signs, that makes an index coordinate of the mesh.
+double GetLargestTerms(const vtkVoxelMesh& mesh, const glm::dmat4& indexFromWorld)
 {
-  constexpr double smallest = 1e-6;
-  constexpr double roundings = 64.0;
-  const glm::dmat4 matrix = grid.GetWorldToIndex();
   double largest = 0.0;
   for (int row = 0; row < 3; ++row)
   {
-    double sum = std::abs(matrix[3][row]);
+    double sum = std::abs(indexFromWorld[3][row]);
     for (int column = 0; column < 3; ++column)
     {
-      sum += std::abs(matrix[column][row]) * mesh.GetLargestCoordinate();
+      sum += std::abs(indexFromWorld[column][row]) * mesh.GetLargestCoordinate();
     }
     largest = std::max(largest, sum);
   }
-  return std::max(smallest, roundings * std::numeric_limits<double>::epsilon() * largest);
+  return largest;
+}
+
+/// By how much voxels are grown so that rounding never makes them miss a triangle; in voxels.
+double GetMargin(double largestTerms)
+{
+  constexpr double smallest = 1e-6;
+  constexpr double roundings = 64.0;
+  return std::max(smallest, roundings * std::numeric_limits<double>::epsilon() * largestTerms);
 }
 
 void Prepare(vtkVoxelGL::Buffer& buffer, const vtkVoxelGL::Context& context, std::int64_t bytes)
@@ -205,6 +229,9 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
   Prepare(this->Queue, this->Context, sizeof(EmptyQueue) + QueueCapacity * 2 * WordBytes);
   this->Queue.Upload(0, sizeof(EmptyQueue), EmptyQueue.data());
   this->Queue.BindBase(GL_SHADER_STORAGE_BUFFER, 2);
+  const glm::dmat4 indexFromWorld = grid.GetWorldToIndex();
+  const double largestTerms = GetLargestTerms(mesh, indexFromWorld);
+  const std::string alignedAxes = GetAlignedAxes(indexFromWorld, axes);
   const auto endWordsPerRow =
     static_cast<unsigned int>(this->ColumnEnds ? this->ColumnEnds->GetWordsPerRow() : 0);
 
@@ -216,6 +243,10 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
     {
       all["TILES"] = "1";
     }
+    if (!alignedAxes.empty())
+    {
+      all["AXES_ALIGNED"] = alignedAxes;
+    }
     if (mesh.HasLowPart())
     {
       all["POINTS_ARE_DOUBLE"] = "1";
@@ -226,7 +257,7 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
           vtkTouchedColumnGLSL, source } } });
     program.Use();
     mesh.Bind(program, MeshUnit);
-    SetIndexFromWorld(program, grid.GetWorldToIndex(), axes);
+    SetIndexFromWorld(program, indexFromWorld, axes, !alignedAxes.empty());
     program.Set("First", ToArray(axes(box.First)));
     program.Set("End", ToArray(axes(box.End)));
     program.Set("Begins", int(box.Begins));
@@ -235,7 +266,7 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
     program.Set("WordsPerRow", static_cast<unsigned int>(target->GetWordsPerRow()));
     program.Set("RowsPerSlice", static_cast<unsigned int>(grid.GetDimensions().y));
     program.Set("EndWordsPerRow", endWordsPerRow);
-    program.Set("Margin", GetMargin(mesh, grid));
+    program.Set("Margin", GetMargin(largestTerms));
     if (tiles)
     {
       this->Queue.Bind(GL_DISPATCH_INDIRECT_BUFFER);

@@ -22,7 +22,9 @@
 // A row v crosses an edge when one end point lies at or before v and the other behind it. A column
 // (u, v) is covered when u lies between the crossings of the two edges, the lower bound included. Both
 // tests see the two end points of one edge and nothing else of the triangle, so all triangles at an
-// edge agree, and the crossings of a closed mesh are even in number in every column.
+// edge agree, and the crossings of a closed mesh are even in number in every column. The depth in a
+// column lies between the depths of these two edges in the row, so that it is the triangle's even where
+// the triangle is seen edge-on.
 
 uniform ivec3 First;
 uniform ivec3 End;
@@ -52,25 +54,28 @@ layout(std430, binding = 1) buffer ColumnEnds
 // Columns of a triangle's bounding rectangle that one invocation does by itself.
 const int DIRECT_COLUMNS = 512;
 
+// The columns of a row that a triangle covers, and its depth along them.
 struct Span
 {
   int First;
   int End;
   int Direction;
+  double Start;
+  double Depth;
+  double Gradient;
+  double Nearest;
+  double Farthest;
 };
 
-// A triangle seen along the columns, its points sorted by v.
+// A triangle seen along the columns, its points sorted by v; slopes are (u, depth) over v.
 struct Outline
 {
   dvec3 Lowest;
   dvec3 Middle;
   dvec3 Highest;
-  double LongSlope;
-  double LowerSlope;
-  double UpperSlope;
-  dvec2 Gradient;
-  double Nearest;
-  double Farthest;
+  dvec2 LongSlope;
+  dvec2 LowerSlope;
+  dvec2 UpperSlope;
   int Turn;
 };
 
@@ -85,13 +90,18 @@ void sortPair(inout dvec3 low, inout dvec3 high, inout int turn)
   }
 }
 
-int clampedCeil(double x, int low, int high)
+dvec2 slopeOf(dvec3 low, dvec3 high)
 {
-  return int(clamp(ceil(x), double(low), double(high)));
+  precise double inverse = 1.0lf / (high.y - low.y);
+  precise dvec2 slope = (high.xz - low.xz) * inverse;
+  return slope;
 }
 
-Outline outlineOf(dvec3 a, dvec3 b, dvec3 c)
+Outline outlineOf(StoredTriangle triangle)
 {
+  dvec3 a = indexOf(triangle.A);
+  dvec3 b = indexOf(triangle.B);
+  dvec3 c = indexOf(triangle.C);
   Outline t;
   t.Turn = 1;
   sortPair(a, b, t.Turn);
@@ -100,48 +110,40 @@ Outline outlineOf(dvec3 a, dvec3 b, dvec3 c)
   t.Lowest = a;
   t.Middle = b;
   t.Highest = c;
-  precise double longSlope = (c.x - a.x) / (c.y - a.y);
-  precise double lowerSlope = (b.x - a.x) / (b.y - a.y);
-  precise double upperSlope = (c.x - b.x) / (c.y - b.y);
-  t.LongSlope = longSlope;
-  t.LowerSlope = lowerSlope;
-  t.UpperSlope = upperSlope;
-  dvec3 e = b - a;
-  dvec3 f = c - a;
-  double area = e.x * f.y - e.y * f.x;
-  t.Gradient = area != 0.0lf
-    ? dvec2(e.z * f.y - e.y * f.z, e.x * f.z - e.z * f.x) / area
-    : dvec2(0.0lf);
-  t.Nearest = min(a.z, min(b.z, c.z));
-  t.Farthest = max(a.z, max(b.z, c.z));
+  t.LongSlope = slopeOf(a, c);
+  t.LowerSlope = slopeOf(a, b);
+  t.UpperSlope = slopeOf(b, c);
   return t;
 }
 
-// The columns of row v that the triangle covers, between the given bounds.
+// Where the edges cross row v, and the columns between, within the given bounds.
 Span spanOfRow(Outline t, int v, int first, int end)
 {
-  precise double y = double(v);
-  precise double along = t.Lowest.x + (y - t.Lowest.y) * t.LongSlope;
-  precise double lower = t.Lowest.x + (y - t.Lowest.y) * t.LowerSlope;
-  precise double upper = t.Middle.x + (y - t.Middle.y) * t.UpperSlope;
-  double across = y < t.Middle.y ? lower : upper;
+  double y = double(v);
+  bool isLower = y < t.Middle.y;
+  dvec3 start = isLower ? t.Lowest : t.Middle;
+  dvec2 slope = isLower ? t.LowerSlope : t.UpperSlope;
+  precise dvec2 along = t.Lowest.xz + (y - t.Lowest.y) * t.LongSlope;
+  precise dvec2 across = start.xz + (y - start.y) * slope;
+  bool isRight = along.x < across.x;
+  double width = across.x - along.x;
   Span span;
-  span.First = clampedCeil(min(along, across), first, end);
-  span.End = clampedCeil(max(along, across), first, end);
-  span.Direction = across > along ? t.Turn : -t.Turn;
+  span.First = boundedCeil(isRight ? along.x : across.x, first, end);
+  span.End = boundedCeil(isRight ? across.x : along.x, first, end);
+  span.Direction = isRight ? t.Turn : -t.Turn;
+  span.Start = along.x;
+  span.Depth = along.y;
+  span.Gradient = width != 0.0lf ? (across.y - along.y) / width : 0.0lf;
+  span.Nearest = lesser(along.y, across.y);
+  span.Farthest = greater(along.y, across.y);
   return span;
 }
 
-double depthOfRow(Outline t, int v)
+void crossColumn(Span span, int u, int v)
 {
-  return t.Lowest.z + (double(v) - t.Lowest.y) * t.Gradient.y;
-}
-
-void crossColumn(Outline t, int u, int v, double depthOfRow, int direction)
-{
-  double depth = depthOfRow + (double(u) - t.Lowest.x) * t.Gradient.x;
-  depth = clamp(depth, t.Nearest, t.Farthest);
-  int d = clampedCeil(depth, First.z - 1, End.z);
+  double depth = span.Depth + (double(u) - span.Start) * span.Gradient;
+  depth = bounded(depth, span.Nearest, span.Farthest);
+  int d = boundedCeil(depth, First.z - 1, End.z);
   d = Begins ? max(d, First.z) : d;
   if (d < First.z)
   {
@@ -150,7 +152,7 @@ void crossColumn(Outline t, int u, int v, double depthOfRow, int direction)
 #ifdef WINDING
   ivec3 size = End - First;
   ivec3 at = ivec3(u, v, d) - First;
-  atomicAdd(Counts[(at.y * (size.z + 1) + at.z) * size.x + at.x], direction);
+  atomicAdd(Counts[(at.y * (size.z + 1) + at.z) * size.x + at.x], span.Direction);
 #else
   ivec3 at = ivec3(u, v, d) - GridFirst;
 #if COLUMN_AXIS == 0
@@ -172,31 +174,37 @@ void crossColumn(Outline t, int u, int v, double depthOfRow, int direction)
 #endif
 }
 
+// The rectangle of columns that a triangle may cover, rows exactly, the others with some at its rim.
+void rectangleOf(Outline t, out ivec2 first, out ivec2 end)
+{
+  vec3 us = vec3(t.Lowest.x, t.Middle.x, t.Highest.x);
+  float left = floor(min(us.x, min(us.y, us.z))) - 1.0;
+  float right = ceil(max(us.x, max(us.y, us.z))) + 1.0;
+  first.x = int(clamp(left, float(First.x), float(End.x)));
+  end.x = int(clamp(right, float(First.x), float(End.x)));
+  first.y = boundedCeil(t.Lowest.y, First.y, End.y);
+  end.y = boundedCeil(t.Highest.y, First.y, End.y);
+}
+
 #ifdef TILES
 
 void main()
 {
   for (uint item = gl_WorkGroupID.x; item < NumberOfItems; item += gl_NumWorkGroups.x)
   {
-    uint triangle = Items[item].x;
-    dvec3 a, b, c;
-    fetchTriangle(triangle, a, b, c);
-    Outline t = outlineOf(a, b, c);
-    double left = min(a.x, min(b.x, c.x));
-    double right = max(a.x, max(b.x, c.x));
-    ivec2 first = ivec2(clampedCeil(left, First.x, End.x), clampedCeil(t.Lowest.y, First.y, End.y));
-    ivec2 end = ivec2(clampedCeil(right, First.x, End.x), clampedCeil(t.Highest.y, First.y, End.y));
+    Outline t = outlineOf(fetchTriangle(Items[item].x));
+    ivec2 first, end;
+    rectangleOf(t, first, end);
     uint tilesPerRow = tilesOf(first, end).x;
-    ivec2 corner = first +
-      ivec2(uvec2(Items[item].y % tilesPerRow, Items[item].y / tilesPerRow) * TILE_SIZE);
+    uvec2 tile = uvec2(Items[item].y % tilesPerRow, Items[item].y / tilesPerRow);
+    ivec2 corner = first + ivec2(tile * TILE_SIZE);
     int v = corner.y + int(gl_LocalInvocationID.x);
     if (v < end.y)
     {
       Span span = spanOfRow(t, v, corner.x, min(corner.x + int(TILE_SIZE), end.x));
-      double rowDepth = depthOfRow(t, v);
       for (int u = span.First; u < span.End; ++u)
       {
-        crossColumn(t, u, v, rowDepth, span.Direction);
+        crossColumn(span, u, v);
       }
     }
   }
@@ -212,43 +220,34 @@ void main()
     return;
   }
   triangle += FirstTriangle;
-  dvec3 a, b, c;
-  fetchTriangle(triangle, a, b, c);
-  Outline t = outlineOf(a, b, c);
-  int v = clampedCeil(t.Lowest.y, First.y, End.y);
-  int lastRow = clampedCeil(t.Highest.y, First.y, End.y);
-  double left = min(a.x, min(b.x, c.x));
-  double right = max(a.x, max(b.x, c.x));
-  ivec2 first = ivec2(clampedCeil(left, First.x, End.x), v);
-  ivec2 end = ivec2(clampedCeil(right, First.x, End.x), lastRow);
-  if (first.x >= end.x)
-  {
-    return;
-  }
-  if (double(end.x - first.x) * double(end.y - first.y) > double(DIRECT_COLUMNS) &&
-    enqueueTiles(triangle, first, end))
+  Outline t = outlineOf(fetchTriangle(triangle));
+  ivec2 first, end;
+  rectangleOf(t, first, end);
+  float columns = float(end.x - first.x) * float(end.y - first.y);
+  if (columns > float(DIRECT_COLUMNS) && enqueueTiles(triangle, first, end))
   {
     return;
   }
 
   // Rows and columns in one loop, so that neighbouring invocations differ by their sums only.
-  Span span = Span(0, 0, 0);
-  double rowDepth = 0.0lf;
+  Span span;
+  span.End = 0;
   int u = 0;
-  for (--v; v < lastRow;)
+  int v = first.y - 1;
+  for (;;)
   {
-    if (u >= span.End)
+    while (u >= span.End && v + 1 < end.y)
     {
       ++v;
-      span = v < lastRow ? spanOfRow(t, v, first.x, end.x) : Span(0, 0, 0);
+      span = spanOfRow(t, v, first.x, end.x);
       u = span.First;
-      rowDepth = depthOfRow(t, v);
     }
-    if (u < span.End)
+    if (u >= span.End)
     {
-      crossColumn(t, u, v, rowDepth, span.Direction);
-      ++u;
+      return;
     }
+    crossColumn(span, u, v);
+    ++u;
   }
 }
 

@@ -54,8 +54,8 @@ int dominantAxis(dvec3 a, dvec3 b, dvec3 c)
 ivec2 voxelsBetween(double low, double high, int first, int end)
 {
   double halfWidth = 0.5lf + Margin;
-  int from = int(clamp(ceil(low - halfWidth), double(first), double(end)));
-  int to = int(clamp(floor(high + halfWidth) + 1.0lf, double(first), double(end)));
+  int from = boundedCeil(low - halfWidth, first, end);
+  int to = 1 - boundedCeil(-(high + halfWidth), 1 - end, 1 - first);
   return ivec2(from, to);
 }
 
@@ -84,8 +84,10 @@ struct Facet
 Facet facetOf(uint triangle)
 {
   Facet f;
-  dvec3 a, b, c;
-  fetchTriangle(triangle, a, b, c);
+  StoredTriangle stored = fetchTriangle(triangle);
+  dvec3 a = indexOf(stored.A);
+  dvec3 b = indexOf(stored.B);
+  dvec3 c = indexOf(stored.C);
   f.Axis = dominantAxis(a, b, c);
   f.A = turned(a, f.Axis);
   f.B = turned(b, f.Axis);

@@ -6,6 +6,8 @@
 //
 // IndexFromWorld holds the three rows (a, b, c, d) of the map a * x + b * y + c * z + d from world
 // coordinates to index coordinates, in the order of the axes that the including shader works in.
+// AXES_ALIGNED is the swizzle of these axes, such as xzy, where the grid lies along the world's axes: a
+// row then is (a, -, -, d) with the one factor that is not zero.
 // All triangles at a point or an edge must see the very same numbers, hence `precise`.
 
 layout(local_size_x = 64) in;
@@ -26,25 +28,81 @@ uint triangleOfInvocation()
   return gl_GlobalInvocationID.y * rowLength + gl_GlobalInvocationID.x;
 }
 
-dvec3 fetchPoint(uint id)
+// A point as it is stored, and the rest that rounding took away.
+struct StoredPoint
 {
-  precise dvec3 world = dvec3(texelFetch(Points, int(id)).xyz);
+  vec3 High;
 #ifdef POINTS_ARE_DOUBLE
-  world += dvec3(texelFetch(PointsLow, int(id)).xyz);
+  vec3 Low;
 #endif
-  precise dvec3 index;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    dvec4 row = IndexFromWorld[axis];
-    index[axis] = row.x * world.x + row.y * world.y + row.z * world.z + row.w;
-  }
+};
+
+struct StoredTriangle
+{
+  StoredPoint A;
+  StoredPoint B;
+  StoredPoint C;
+};
+
+StoredPoint fetchPoint(uint id)
+{
+  StoredPoint point;
+  point.High = texelFetch(Points, int(id)).xyz;
+#ifdef POINTS_ARE_DOUBLE
+  point.Low = texelFetch(PointsLow, int(id)).xyz;
+#endif
+  return point;
+}
+
+StoredTriangle fetchTriangle(uint triangle)
+{
+  uvec3 ids = texelFetch(Triangles, int(triangle)).xyz;
+  return StoredTriangle(fetchPoint(ids.x), fetchPoint(ids.y), fetchPoint(ids.z));
+}
+
+dvec3 indexOf(StoredPoint point)
+{
+  precise dvec3 world = dvec3(point.High);
+#ifdef POINTS_ARE_DOUBLE
+  world += dvec3(point.Low);
+#endif
+#ifdef AXES_ALIGNED
+  dvec3 scale = dvec3(IndexFromWorld[0].x, IndexFromWorld[1].x, IndexFromWorld[2].x);
+  dvec3 offset = dvec3(IndexFromWorld[0].w, IndexFromWorld[1].w, IndexFromWorld[2].w);
+  precise dvec3 index = world.AXES_ALIGNED * scale + offset;
+#else
+  dvec4 u = IndexFromWorld[0];
+  dvec4 v = IndexFromWorld[1];
+  dvec4 w = IndexFromWorld[2];
+  precise dvec3 index = dvec3(u.x * world.x + u.y * world.y + u.z * world.z + u.w,
+    v.x * world.x + v.y * world.y + v.z * world.z + v.w,
+    w.x * world.x + w.y * world.y + w.z * world.z + w.w);
+#endif
   return index;
 }
 
-void fetchTriangle(uint triangle, out dvec3 a, out dvec3 b, out dvec3 c)
+// The functions on doubles below avoid what renderers in software do number by number in double precision:
+// ceil, min, max and clamp.
+
+double lesser(double a, double b)
 {
-  uvec3 ids = texelFetch(Triangles, int(triangle)).xyz;
-  a = fetchPoint(ids.x);
-  b = fetchPoint(ids.y);
-  c = fetchPoint(ids.z);
+  return a < b ? a : b;
+}
+
+double greater(double a, double b)
+{
+  return a < b ? b : a;
+}
+
+double bounded(double x, double low, double high)
+{
+  return x > low ? (x < high ? x : high) : low;
+}
+
+// The smallest integer that is not less than x, within bounds.
+int boundedCeil(double x, int low, int high)
+{
+  double within = bounded(x, double(low), double(high));
+  int truncated = int(within);
+  return truncated + (double(truncated) < within ? 1 : 0);
 }
