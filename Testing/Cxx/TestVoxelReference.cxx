@@ -1,5 +1,6 @@
 // Proves the reference implementations that all other tests trust:
-// - the scanline's voxels are those of exact arithmetic, voxel by voxel, on each axis and under both
+// - the scanline's voxels are those of exact arithmetic, voxel by voxel, on each axis and under
+// both
 //   fill rules, for meshes in general position, on ties and without area;
 // - solids are half open; a 1 mm cube at 0.25 mm has 4^3 voxels, wherever the grid begins;
 // - the result does not depend on how a mesh is stored, on the threads, or on the grid's extent;
@@ -213,9 +214,9 @@ bool TestBoxesAreHalfOpen()
       for (double start : { 0.0, 0.03125, 0.125, 0.1875, -1000.0 })
       {
         const int first = start < 0 ? 4000 : 0;
-        const Grid fine = Grid::FromSpacing({ first - 3, first + 9, first - 2, first + 9,
-                                              first - 5, first + 8 },
-          { start, start, start }, { 0.25, 0.25, 0.25 });
+        const Grid fine =
+          Grid::FromSpacing({ first - 3, first + 9, first - 2, first + 9, first - 5, first + 8 },
+            { start, start, start }, { 0.25, 0.25, 0.25 });
         ok &= CheckEqual<std::size_t>(Name("1 mm at 0.25 mm", column, rule),
           SolidReference(cube, fine, column, rule).CountNonZero(), 64);
       }
@@ -255,11 +256,13 @@ bool TestVolumesAndAxes(int argc, char* argv[])
     { "rotated star prism", Triangulated(Rotated(StarPrism({ 0, 0, 0 }, 9, 12, 7))) },
     { "tetrahedron", Tetrahedron({ { { 0, 0, 0 }, { 7, 1, 0.5 }, { 2, 8, 1 }, { 1, 2, 9 } } }) },
   };
-  if (const Mesh bunny = ReadPLY("bunny_7k.ply", argc, argv))
+  const Mesh bunny = ReadPLY("bunny_7k.ply", argc, argv);
+  if (!Check("bunny_7k.ply is in a directory given with -D", bunny != nullptr))
   {
-    meshes.emplace_back("bunny", bunny);
-    meshes.emplace_back("rotated bunny", Rotated(bunny));
+    return false;
   }
+  meshes.emplace_back("bunny", bunny);
+  meshes.emplace_back("rotated bunny", Rotated(bunny));
 
   bool ok = true;
   for (const auto& [name, mesh] : meshes)
@@ -338,7 +341,8 @@ bool TestStorageDoesNotMatter()
 bool TestExtentAndThreadsDoNotMatter()
 {
   bool ok = true;
-  const Mesh mesh = VoxelTestMeshes::Moved(VoxelTestMeshes::TorusKnot(130, 16, 300), { 66, 64, 20 });
+  const Mesh mesh =
+    VoxelTestMeshes::Moved(VoxelTestMeshes::TorusKnot(130, 16, 300), { 66, 64, 20 });
   const Grid whole = UnitGrid({ -3, 133, -2, 131, -1, 41 });
   for (Axis column : AllAxes)
   {
@@ -349,10 +353,11 @@ bool TestExtentAndThreadsDoNotMatter()
       ok &= Report(Name("threads", column),
         Compare(CrossingParityReference(mesh, whole, column, threads), expected));
     }
-    for (const std::array<int, 6>& extent : { std::array<int, 6>{ 20, 83, 10, 99, 5, 30 },
-           std::array<int, 6>{ 21, 85, 0, 128, 7, 33 }, std::array<int, 6>{ 50, 50, 20, 90, 0, 40 },
-           std::array<int, 6>{ 0, 128, 64, 64, 0, 40 }, std::array<int, 6>{ 0, 128, 0, 128, 21, 21 },
-           std::array<int, 6>{ 40, 103, 30, 60, 15, 25 } })
+    for (const std::array<int, 6>& extent :
+      { std::array<int, 6>{ 20, 83, 10, 99, 5, 30 }, std::array<int, 6>{ 21, 85, 0, 128, 7, 33 },
+        std::array<int, 6>{ 50, 50, 20, 90, 0, 40 }, std::array<int, 6>{ 0, 128, 64, 64, 0, 40 },
+        std::array<int, 6>{ 0, 128, 0, 128, 21, 21 },
+        std::array<int, 6>{ 40, 103, 30, 60, 15, 25 } })
     {
       const Grid part = UnitGrid(extent);
       const Volume cut =
@@ -385,8 +390,8 @@ bool TestFillRules()
         grid, [&](const Voxel& voxel) { return operation(a.At(voxel), b.At(voxel)); });
     };
     ok &= Report(Name("two spheres", column),
-      Compare(CrossingParityReference(both, grid, column),
-        combined([](int x, int y) { return x ^ y; })));
+      Compare(
+        CrossingParityReference(both, grid, column), combined([](int x, int y) { return x ^ y; })));
     ok &= Report(Name("two spheres", column, FillRule::NonZero),
       Compare(CrossingNonZeroReference(both, grid, column),
         combined([](int x, int y) { return x | y; })));
@@ -435,8 +440,8 @@ bool TestGrids()
   const Volume expected = VolumeWhere(grid,
     [](const Voxel& voxel)
     {
-      return voxel[0] >= 2 && voxel[0] < 6 && voxel[1] >= 10 && voxel[1] < 14 &&
-        voxel[2] >= -30 && voxel[2] < -26;
+      return voxel[0] >= 2 && voxel[0] < 6 && voxel[1] >= 10 && voxel[1] < 14 && voxel[2] >= -30 &&
+        voxel[2] < -26;
     });
   std::array<double, 16> matrix{};
   for (int row = 0; row < 3; ++row)
@@ -458,8 +463,7 @@ bool TestGrids()
 }
 
 /// The part of a polygon on the inner side of the plane sign * x[axis] <= limit.
-std::vector<Vector> Clipped(
-  const std::vector<Vector>& polygon, int axis, double sign, double limit)
+std::vector<Vector> Clipped(const std::vector<Vector>& polygon, int axis, double sign, double limit)
 {
   std::vector<Vector> inside;
   for (std::size_t corner = 0; corner < polygon.size(); ++corner)
@@ -475,8 +479,8 @@ std::vector<Vector> Clipped(
     if ((overA < 0.0 && overB > 0.0) || (overA > 0.0 && overB < 0.0))
     {
       const double t = overA / (overA - overB);
-      inside.push_back({ a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]),
-        a[2] + t * (b[2] - a[2]) });
+      inside.push_back(
+        { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) });
     }
   }
   return inside;
@@ -592,12 +596,12 @@ bool TestSurfaceReference()
   ok &= CheckEqual("touched by a box", box.CountNonZero(), faces.CountNonZero());
 
   // Faces between voxels touch both sides, but not surely.
-  const Volume between = TouchedVoxelsReference(
-    VoxelTestMeshes::Box({ 2.5, 2.5, 2.5 }, { 12.5, 12.5, 12.5 }), grid);
+  const Volume between =
+    TouchedVoxelsReference(VoxelTestMeshes::Box({ 2.5, 2.5, 2.5 }, { 12.5, 12.5, 12.5 }), grid);
   ok &= CheckEqual<std::size_t>(
     "touched by a box between voxels", between.CountNonZero(), 12 * 12 * 12 - 8 * 8 * 8);
-  ok &= Check("touched nearly", between.At({ 2, 7, 7 }) == TouchedNearly &&
-      between.At({ 3, 7, 7 }) == TouchedNearly);
+  ok &= Check("touched nearly",
+    between.At({ 2, 7, 7 }) == TouchedNearly && between.At({ 3, 7, 7 }) == TouchedNearly);
   return ok;
 }
 
@@ -669,9 +673,10 @@ bool TestComparison()
   // A voxel on the surface itself is a difference unless a tolerance is given.
   const Mesh box = VoxelTestMeshes::Box({ 2, 3, 4 }, { 10, 11, 12 });
   const Volume boxVoxels = CrossingParityReference(box, grid);
-  const Difference onSurface = Compare(
-    VolumeWhere(grid,
-      [&](const Voxel& voxel) { return boxVoxels.At(voxel) || voxel == Voxel{ 10, 7, 7 }; }),
+  const Difference onSurface = Compare(VolumeWhere(grid,
+                                         [&](const Voxel& voxel) {
+                                           return boxVoxels.At(voxel) || voxel == Voxel{ 10, 7, 7 };
+                                         }),
     boxVoxels);
   ok &= Report("within the tolerance", onSurface, box, 1e-9);
   ErrorsOf([&] { ok &= Check("tolerance 0", !Report("tolerance 0", onSurface, box, 0.0)); });
@@ -687,16 +692,16 @@ bool TestComparison()
   const Volume touched = TouchedVoxelsReference(mesh, grid);
   const auto changed = [&](const Volume& volume, const Voxel& at)
   {
-    return VolumeWhere(grid,
-      [&](const Voxel& voxel) { return (volume.At(voxel) != 0) != (voxel == at); });
+    return VolumeWhere(
+      grid, [&](const Voxel& voxel) { return (volume.At(voxel) != 0) != (voxel == at); });
   };
   const Voxel none{ -1, -1, -1 };
   const Voxel middle{ 8, 8, 8 };
   const Voxel outside{ 0, 1, 2 };
-  const Volume over = VolumeWhere(
-    grid, [&](const Voxel& voxel) { return expected.At(voxel) || touched.At(voxel); });
-  const Volume under = VolumeWhere(
-    grid, [&](const Voxel& voxel) { return expected.At(voxel) && !touched.At(voxel); });
+  const Volume over =
+    VolumeWhere(grid, [&](const Voxel& voxel) { return expected.At(voxel) || touched.At(voxel); });
+  const Volume under =
+    VolumeWhere(grid, [&](const Voxel& voxel) { return expected.At(voxel) && !touched.At(voxel); });
   const auto surelyTouched = static_cast<std::size_t>(
     std::find(touched.Voxels.get(), touched.Voxels.get() + grid.NumberOfVoxels(),
       TouchedNearly | TouchedSurely) -
@@ -710,12 +715,12 @@ bool TestComparison()
     ErrorsOf(
       [&]
       {
-        ok &= Check("over changed",
-          !ReportOverConservative("over", changed(over, voxel), touched, expected));
+        ok &= Check(
+          "over changed", !ReportOverConservative("over", changed(over, voxel), touched, expected));
         ok &= Check("under changed",
           !ReportUnderConservative("under", changed(under, voxel), touched, expected));
-        ok &= Check(
-          "boundary changed", !ReportBoundary("boundary", changed(touched, voxel), touched));
+        ok &=
+          Check("boundary changed", !ReportBoundary("boundary", changed(touched, voxel), touched));
       });
   }
   return ok;

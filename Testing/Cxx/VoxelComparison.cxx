@@ -178,8 +178,7 @@ Difference Compare(const Volume& result, const Volume& reference)
     difference.Expected += expected ? 1 : 0;
     if (expected != found)
     {
-      (expected ? difference.Missing : difference.Extra)
-        .push_back(reference.Grid.VoxelAt(offset));
+      (expected ? difference.Missing : difference.Extra).push_back(reference.Grid.VoxelAt(offset));
     }
   }
   return difference;
@@ -271,10 +270,10 @@ bool Report(const std::string& name, const Difference& difference, vtkPolyData* 
     return true;
   }
   const Voxel& worst = deviation.Worst;
-  std::cerr << name << ": " << difference.Summary() << "; " << deviation.Beyond
-            << " farther than " << tolerance << " voxel from the surface, at most "
-            << deviation.Largest << " at (" << worst[0] << ", " << worst[1] << ", " << worst[2]
-            << "), in " << deviation.LeakingColumns << " columns\n";
+  std::cerr << name << ": " << difference.Summary() << "; " << deviation.Beyond << " farther than "
+            << tolerance << " voxel from the surface, at most " << deviation.Largest << " at ("
+            << worst[0] << ", " << worst[1] << ", " << worst[2] << "), in "
+            << deviation.LeakingColumns << " columns\n";
   return false;
 }
 

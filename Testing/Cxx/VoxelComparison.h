@@ -42,9 +42,9 @@ struct Difference
 };
 
 /**
- * The occupancy of an image as 0 or 1 a voxel: the array "Occupancy", else the active scalars, of the
- * points, else of the cells; of any numeric type or vtkBitArray. A voxel has the index of its point
- * or of its cell. Throws std::runtime_error when there is no such array or its size is wrong.
+ * The occupancy of an image as 0 or 1 a voxel: the array "Occupancy", else the active scalars, of
+ * the points, else of the cells; of any numeric type or vtkBitArray. A voxel has the index of its
+ * point or of its cell. Throws std::runtime_error when there is no such array or its size is wrong.
  */
 Volume OccupancyOf(vtkImageData* image);
 
@@ -67,17 +67,17 @@ SurfaceDeviation DeviationFromSurface(
 /// the rounding: this finds leaks without a reference.
 std::size_t CountColumnsOpenAtEnd(const Volume& volume, Axis column);
 
-/// True when all differences lie within `tolerance` voxels of the surface. With a tolerance of 0, or
-/// without the mesh, there may be none, not even on the surface itself.
-/// Otherwise prints one line that starts with `name`, which should tell mesh, grid and seed.
+/// True when all differences lie within `tolerance` voxels of the surface. With a tolerance of 0,
+/// or without the mesh, there may be none, not even on the surface itself. Otherwise prints one
+/// line that starts with `name`, which should tell mesh, grid and seed.
 bool Report(const std::string& name, const Difference& difference, vtkPolyData* mesh = nullptr,
   double tolerance = 0.0, Axis column = Axis::Z);
 
 ///@{
 /**
  * For the conservative modes: `touched` comes from TouchedVoxelsReference, `solid` from
- * SolidReference. A voxel that is touched nearly, but not surely, may be occupied or not; apart from
- * these the result has to be
+ * SolidReference. A voxel that is touched nearly, but not surely, may be occupied or not; apart
+ * from these the result has to be
  * - over-conservative: the voxels that are touched, and the others that are solid;
  * - under-conservative: the voxels that are solid and not touched;
  * - boundary: the voxels that are touched.

@@ -1,8 +1,9 @@
 #include "VoxelExactInside.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
+#include <cstddef>
 
 namespace VoxelReference
 {
@@ -15,6 +16,12 @@ class Exact
 public:
   Exact() = default;
   explicit Exact(double value) { this->Add(value); }
+  Exact(const Exact& other)
+    : Count(other.Count)
+  {
+    std::copy(other.begin(), other.end(), this->Terms.begin());
+  }
+  Exact& operator=(const Exact&) = delete;
 
   static Exact Difference(double a, double b)
   {
@@ -26,7 +33,7 @@ public:
   Exact operator-(const Exact& other) const
   {
     Exact difference = *this;
-    for (double term : other.Terms)
+    for (double term : other)
     {
       difference.Add(-term);
     }
@@ -36,7 +43,7 @@ public:
   Exact operator+(const Exact& other) const
   {
     Exact sum = *this;
-    for (double term : other.Terms)
+    for (double term : other)
     {
       sum.Add(term);
     }
@@ -46,9 +53,9 @@ public:
   Exact operator*(const Exact& other) const
   {
     Exact product;
-    for (double a : this->Terms)
+    for (double a : *this)
     {
-      for (double b : other.Terms)
+      for (double b : other)
       {
         const double high = a * b;
         product.Add(std::fma(a, b, -high));
@@ -58,17 +65,17 @@ public:
     return product;
   }
 
-  int Sign() const
-  {
-    return this->Terms.empty() ? 0 : (this->Terms.back() > 0.0 ? 1 : -1);
-  }
+  int Sign() const { return this->Count == 0 ? 0 : (this->Terms[this->Count - 1] > 0.0 ? 1 : -1); }
 
 private:
+  const double* begin() const { return this->Terms.data(); }
+  const double* end() const { return this->Terms.data() + this->Count; }
+
   void Add(double value)
   {
     double carry = value;
     std::size_t kept = 0;
-    for (double term : this->Terms)
+    for (double term : *this)
     {
       const double sum = carry + term;
       const double virtualTerm = sum - carry;
@@ -79,14 +86,17 @@ private:
         this->Terms[kept++] = rest;
       }
     }
-    this->Terms.resize(kept);
     if (carry != 0.0)
     {
-      this->Terms.push_back(carry);
+      this->Terms[kept++] = carry;
     }
+    this->Count = kept;
   }
 
-  std::vector<double> Terms;
+  // Enough for three products of a difference (2 terms) and a normal's component (16 terms).
+  static constexpr std::size_t Capacity = 192;
+  std::array<double, Capacity> Terms; ///< the first Count are valid
+  std::size_t Count = 0;
 };
 
 /// An edge's crossing of the row v lies at or before u (U <= u).
@@ -95,14 +105,15 @@ bool CrossesAtOrBefore(const Vector& one, const Vector& two, const AxisOrder& or
   const bool ascending = one[order.V] < two[order.V];
   const Vector& low = ascending ? one : two;
   const Vector& high = ascending ? two : one;
-  const Exact scaledCrossing = Exact::Difference(v, low[order.V]) *
-    Exact::Difference(high[order.U], low[order.U]);
-  const Exact scaledPoint = Exact::Difference(u, low[order.U]) *
-    Exact::Difference(high[order.V], low[order.V]);
+  const Exact scaledCrossing =
+    Exact::Difference(v, low[order.V]) * Exact::Difference(high[order.U], low[order.U]);
+  const Exact scaledPoint =
+    Exact::Difference(u, low[order.U]) * Exact::Difference(high[order.V], low[order.V]);
   return (scaledCrossing - scaledPoint).Sign() <= 0;
 }
 
-/// +1 or -1, the direction of the crossings at or before u, if the column (u, v) is covered; else 0.
+/// +1 or -1, the direction of the crossings at or before u, if the column (u, v) is covered; else
+/// 0.
 int Coverage(const Triangle& triangle, const AxisOrder& order, int u, int v)
 {
   int coverage = 0;
@@ -137,8 +148,7 @@ bool LiesAtOrBefore(const Triangle& triangle, const AxisOrder& order, const Voxe
 
 bool MayCover(const Triangle& triangle, int axis, int index)
 {
-  const auto [low, high] =
-    std::minmax({ triangle[0][axis], triangle[1][axis], triangle[2][axis] });
+  const auto [low, high] = std::minmax({ triangle[0][axis], triangle[1][axis], triangle[2][axis] });
   return low <= index && index < high;
 }
 

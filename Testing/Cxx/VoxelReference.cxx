@@ -149,7 +149,8 @@ private:
   double NormalC;
 };
 
-/// Does [low, high) hold an index of [first, last]? May say yes when an end lies within `room` of it.
+/// Does [low, high) hold an index of [first, last]? May say yes when an end lies within `room` of
+/// it.
 inline bool MayHoldIndex(double low, double high, double room, int first, int last)
 {
   return CeilWithin(low - room, first, last + 1) != CeilWithin(high + room, first, last + 1);
@@ -170,8 +171,7 @@ inline bool MayCoverColumn(const std::array<Point, 3>& triangle, const ColumnFra
 
 /// Calls visit(Crossing) for each column of the frame that the triangle covers.
 template <typename Visitor>
-void VisitCrossings(
-  const std::array<Point, 3>& triangle, const ColumnFrame& frame, Visitor&& visit)
+void VisitCrossings(const std::array<Point, 3>& triangle, const ColumnFrame& frame, Visitor&& visit)
 {
   const CornerOrder& order = OrderCorners(triangle);
   const Point& a = triangle[order.Low];
@@ -274,8 +274,7 @@ public:
 
   const std::atomic<Word>* Row(int j, int k) const
   {
-    return this->Words.get() +
-      (static_cast<std::int64_t>(k) * this->Rows + j) * this->WordsPerRow;
+    return this->Words.get() + (static_cast<std::int64_t>(k) * this->Rows + j) * this->WordsPerRow;
   }
 
   void Toggle(const Voxel& voxel)
@@ -530,8 +529,7 @@ Grid Grid::FromSpacing(
 }
 
 //------------------------------------------------------------------------------------------------
-Grid Grid::FromMatrix(
-  const std::array<int, 6>& extent, const std::array<double, 16>& worldToIndex)
+Grid Grid::FromMatrix(const std::array<int, 6>& extent, const std::array<double, 16>& worldToIndex)
 {
   Grid grid;
   grid.Extent = extent;
@@ -672,7 +670,8 @@ void IndexMesh::MapPoints(vtkPolyData* mesh, const Grid& grid, int threads)
   };
   if (const auto* floats = vtkArrayDownCast<vtkFloatArray>(coordinates))
   {
-    mapAll([floats](std::int64_t point, int axis) { return floats->GetTypedComponent(point, axis); });
+    mapAll(
+      [floats](std::int64_t point, int axis) { return floats->GetTypedComponent(point, axis); });
   }
   else
   {

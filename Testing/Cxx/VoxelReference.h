@@ -15,8 +15,9 @@
  *   points are put in order of increasing ordinate first, so the two triangles at an edge compute
  *   the same crossing, U = au + (v - av) * (bu - au) / (bv - av), shared vertices or not. An edge
  *   with equal ordinates crosses no row, so this order is total where it matters.
- * - A triangle has no or two crossings in a row; it covers the columns ceil(Umin) <= u < ceil(Umax).
- *   In a closed mesh every column is thus covered an even number of times, whatever the rounding.
+ * - A triangle has no or two crossings in a row; it covers the columns ceil(Umin) <= u <
+ * ceil(Umax). In a closed mesh every column is thus covered an even number of times, whatever the
+ * rounding.
  * - In a covered column the surface is crossed at the depth z of the triangle's plane at (u, v),
  *   clamped to the depths of the triangle at its two edge crossings of that row.
  * - A voxel k lies behind a crossing iff z <= k. Parity: a voxel is solid iff it lies behind an odd

@@ -40,8 +40,7 @@ double DistanceToSegment(const Vector& point, const Vector& a, const Vector& b)
   const Vector direction = b - a;
   const Vector offset = point - a;
   const double length2 = Dot(direction, direction);
-  const double t =
-    length2 > 0.0 ? std::clamp(Dot(offset, direction) / length2, 0.0, 1.0) : 0.0;
+  const double t = length2 > 0.0 ? std::clamp(Dot(offset, direction) / length2, 0.0, 1.0) : 0.0;
   Vector rest = offset;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -61,8 +60,7 @@ std::array<int, 6> VoxelRange(const Triangle& triangle, double reach, const Grid
     const double first = grid.Extent[2 * axis];
     const double last = grid.Extent[2 * axis + 1];
     range[2 * axis] = static_cast<int>(std::clamp(std::ceil(low - reach), first, last + 1.0));
-    range[2 * axis + 1] =
-      static_cast<int>(std::clamp(std::floor(high + reach), first - 1.0, last));
+    range[2 * axis + 1] = static_cast<int>(std::clamp(std::floor(high + reach), first - 1.0, last));
   }
   return range;
 }
@@ -132,8 +130,8 @@ public:
     return std::none_of(this->Axes.begin(), this->Axes.end(),
       [&](const Vector& axis)
       {
-        const double radius = std::abs(axis[0]) * half[0] + std::abs(axis[1]) * half[1] +
-          std::abs(axis[2]) * half[2];
+        const double radius =
+          std::abs(axis[0]) * half[0] + std::abs(axis[1]) * half[1] + std::abs(axis[2]) * half[2];
         const auto [low, high] =
           std::minmax({ Dot(axis, moved[0]), Dot(axis, moved[1]), Dot(axis, moved[2]) });
         return std::max(low, -high) > radius;
@@ -194,7 +192,8 @@ public:
     , Order(voxels.size())
   {
     std::iota(this->Order.begin(), this->Order.end(), std::size_t{ 0 });
-    std::sort(this->Order.begin(), this->Order.end(), [this](std::size_t a, std::size_t b)
+    std::sort(this->Order.begin(), this->Order.end(),
+      [this](std::size_t a, std::size_t b)
       { return RowMajor(this->Voxels[a]) < RowMajor(this->Voxels[b]); });
   }
 
@@ -263,8 +262,8 @@ double CubeDistanceToTriangle(const Vector& centre, const Triangle& triangle)
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<double> DistanceToSurface(vtkPolyData* mesh, const Grid& grid,
-  const std::vector<Voxel>& voxels, double reach, int threads)
+std::vector<double> DistanceToSurface(
+  vtkPolyData* mesh, const Grid& grid, const std::vector<Voxel>& voxels, double reach, int threads)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::vector<double> beyondReach(voxels.size(), infinity);

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -150,10 +149,6 @@ std::vector<std::string> MeshDirectories(int argc, char* argv[])
       directories.emplace_back(argv[argument + 1]);
     }
   }
-  if (const char* large = std::getenv("VOXELIZATION_LARGE_DATA"))
-  {
-    directories.emplace_back(large);
-  }
   return directories;
 }
 
@@ -253,7 +248,8 @@ Mesh TorusKnot(double size, int around, int along)
   const auto knot = [size](double t) -> Vector
   {
     const double radius = size * (0.3 + 0.1 * std::cos(3.0 * t));
-    return { radius * std::cos(2.0 * t), radius * std::sin(2.0 * t), size * 0.1 * std::sin(3.0 * t) };
+    return { radius * std::cos(2.0 * t), radius * std::sin(2.0 * t),
+      size * 0.1 * std::sin(3.0 * t) };
   };
   const double fullTurn = 2.0 * vtkMath::Pi();
   std::vector<Vector> points;
@@ -379,8 +375,8 @@ Mesh RandomHugeTetrahedra(int seed, int count, double size, double factor)
   for (int number = 0; number < count; ++number)
   {
     std::array<Vector, 4> corners;
-    std::generate(corners.begin(), corners.end(),
-      [&] { return random.InCube(-factor * size, factor * size); });
+    std::generate(
+      corners.begin(), corners.end(), [&] { return random.InCube(-factor * size, factor * size); });
     tetrahedra.push_back(Tetrahedron(corners));
   }
   return Appended(tetrahedra);
@@ -416,7 +412,9 @@ Mesh OnLattice(vtkPolyData* mesh, double step)
 {
   const auto snap = [step](double x) { return step * std::round(x / step); };
   return WithPoints(mesh,
-    [&](const Vector& p) -> Vector { return { snap(p[0]), snap(p[1]), snap(p[2]) }; });
+    [&](const Vector& p) -> Vector {
+      return { snap(p[0]), snap(p[1]), snap(p[2]) };
+    });
 }
 
 //------------------------------------------------------------------------------------------------
@@ -441,8 +439,9 @@ Mesh Rotated(vtkPolyData* mesh)
 Mesh Moved(vtkPolyData* mesh, const Vector& offset, double scale)
 {
   return WithPoints(mesh,
-    [&](const Vector& p) -> Vector
-    { return { scale * p[0] + offset[0], scale * p[1] + offset[1], scale * p[2] + offset[2] }; });
+    [&](const Vector& p) -> Vector {
+      return { scale * p[0] + offset[0], scale * p[1] + offset[1], scale * p[2] + offset[2] };
+    });
 }
 
 //------------------------------------------------------------------------------------------------
@@ -481,8 +480,8 @@ Mesh Shuffled(vtkPolyData* mesh, int seed)
   }
   for (std::vector<vtkIdType>& polygon : polygons)
   {
-    std::rotate(polygon.begin(),
-      polygon.begin() + random.Below(static_cast<int>(polygon.size())), polygon.end());
+    std::rotate(polygon.begin(), polygon.begin() + random.Below(static_cast<int>(polygon.size())),
+      polygon.end());
   }
   return MakeMesh(PointsOf(mesh), polygons);
 }

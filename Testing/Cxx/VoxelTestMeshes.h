@@ -24,9 +24,7 @@ using Vector = std::array<double, 3>;
 ///@{
 /**
  * Meshes in files.
- * Directories searched, in this order: each `-D DIR` among the test's arguments, then the one named
- * by the environment variable VOXELIZATION_LARGE_DATA, where the meshes too large for the
- * repository may lie.
+ * Directories searched: each `-D DIR` among the test's arguments, in their order.
  */
 std::vector<std::string> MeshDirectories(int argc, char* argv[]);
 std::string FindMeshFile(const std::string& fileName, int argc, char* argv[]); ///< or empty
@@ -36,9 +34,9 @@ Mesh ReadPLY(const std::string& fileName, int argc, char* argv[]);             /
 ///@{
 /// Simple solids.
 Mesh FromTriangles(const std::vector<std::array<Vector, 3>>& triangles); ///< points not shared
-Mesh Box(const Vector& low, const Vector& high);                        ///< 12 triangles
-Mesh QuadBox(const Vector& low, const Vector& high);                    ///< 6 quadrilaterals
-Mesh Tetrahedron(const std::array<Vector, 4>& corners);                 ///< oriented outwards
+Mesh Box(const Vector& low, const Vector& high);                         ///< 12 triangles
+Mesh QuadBox(const Vector& low, const Vector& high);                     ///< 6 quadrilaterals
+Mesh Tetrahedron(const std::array<Vector, 4>& corners);                  ///< oriented outwards
 Mesh Sphere(const Vector& centre, double radius, int resolution = 24);
 Mesh TorusKnot(double size, int around, int along); ///< 2 * around * along triangles
 /// A prism over a star with that many spikes; its two ends are non-convex n-gons.
@@ -68,7 +66,7 @@ Mesh Subdivided(vtkPolyData* mesh, int times); ///< Loop: 4 times the triangles 
 Mesh Unshared(vtkPolyData* mesh);              ///< as an STL file: each triangle its own points
 /// Cells in another order, each turned cyclically. A non-planar n-gon thus gets another fan.
 Mesh Shuffled(vtkPolyData* mesh, int seed);
-Mesh Reversed(vtkPolyData* mesh);              ///< all orientations
+Mesh Reversed(vtkPolyData* mesh); ///< all orientations
 Mesh AsStrips(vtkPolyData* mesh);
 Mesh Triangulated(vtkPolyData* mesh); ///< strips and n-gons into triangles
 /// Adds triangles without area: points, segments, with equal ids or equal coordinates.

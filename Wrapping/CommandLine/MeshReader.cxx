@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshReader.h"
+
+#include "Failure.h"
+#include "FileNames.h"
+#include "InputFile.h"
+#include "MeshFileCheck.h"
+#include "Messages.h"
+#include "Terminal.h"
+
+#include "vtkCellArray.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArrayRange.h"
+#include "vtkGLTFReader.h"
+#include "vtkOBJReader.h"
+#include "vtkPLYReader.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataReader.h"
+#include "vtkSTLReader.h"
+#include "vtkXMLPolyDataReader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+namespace
+{
+template <typename Reader>
+vtkSmartPointer<vtkAlgorithm> MakeReader(const std::string& file)
+{
+  auto reader = vtkSmartPointer<Reader>::New();
+  reader->SetFileName(file.c_str());
+  return reader;
+}
+
+vtkSmartPointer<vtkAlgorithm> MakeSTLReader(const std::string& file)
+{
+  auto reader = vtkSmartPointer<vtkSTLReader>::New();
+  reader->SetFileName(file.c_str());
+  // Voxelizers know that points with the same coordinates are one.
+  reader->MergingOff();
+  return reader;
+}
+
+struct Format
+{
+  const char* Extension;
+  vtkSmartPointer<vtkAlgorithm> (*MakeReader)(const std::string& file);
+  /// Finds what the reader would not survive or not notice.
+  void (*Check)(const std::string& file);
+};
+
+constexpr Format Formats[] = {
+  { ".stl", MakeSTLReader, MeshFileCheck::CheckSTL },
+  { ".ply", MakeReader<vtkPLYReader>, MeshFileCheck::CheckPLY },
+  { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ },
+  { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr },
+  { ".vtk", MakeReader<vtkPolyDataReader>, nullptr },
+  { ".gltf", MakeReader<vtkGLTFReader>, nullptr },
+  { ".glb", MakeReader<vtkGLTFReader>, MeshFileCheck::CheckGLB },
+};
+
+const Format& FindFormat(const std::string& file)
+{
+  const std::string extension = FileNames::GetExtension(file);
+  const auto* const found = std::find_if(std::begin(Formats), std::end(Formats),
+    [&](const Format& format) { return extension == format.Extension; });
+  if (found == std::end(Formats))
+  {
+    InputFile::Refuse(file,
+      (extension.empty() ? "its name has no extension"
+                         : "meshes of type " + extension + " are not known") +
+        "; known are " + MeshReader::GetExtensions());
+  }
+  return *found;
+}
+
+/**
+ * A name for the file that ends in the extension as VTK's reader of GLB wants it, in lower case:
+ * the file's own, or else that of a link that goes away with this object.
+ */
+class LowerCaseName
+{
+public:
+  LowerCaseName(const std::string& file, const std::string& extension)
+    : Name(file)
+  {
+    namespace fs = std::filesystem;
+    const fs::path path = fs::absolute(file);
+    if (path.extension() == extension || extension != ".glb")
+    {
+      return;
+    }
+    this->Link = fs::temp_directory_path() / ("vtkvoxelize-" + path.stem().string() + extension);
+    fs::remove(this->Link);
+    fs::create_symlink(path, this->Link);
+    this->Name = this->Link.string();
+  }
+  ~LowerCaseName()
+  {
+    std::error_code ignored;
+    std::filesystem::remove(this->Link, ignored);
+  }
+  LowerCaseName(const LowerCaseName&) = delete;
+  void operator=(const LowerCaseName&) = delete;
+
+  const std::string& Get() const { return this->Name; }
+
+private:
+  std::string Name;
+  std::filesystem::path Link;
+};
+
+std::vector<vtkPolyData*> GetParts(vtkDataObject* data)
+{
+  std::vector<vtkPolyData*> parts;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    vtkSmartPointer<vtkCompositeDataIterator> leaf;
+    leaf.TakeReference(composite->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+    {
+      parts.push_back(vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()));
+    }
+  }
+  else
+  {
+    parts.push_back(vtkPolyData::SafeDownCast(data));
+  }
+  parts.erase(std::remove(parts.begin(), parts.end(), nullptr), parts.end());
+  return parts;
+}
+
+bool AreFinite(vtkPoints* points)
+{
+  const auto values = vtk::DataArrayValueRange<3>(points->GetData());
+  return std::all_of(
+    values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+bool ReferToPoints(vtkCellArray* cells, vtkIdType numberOfPoints)
+{
+  const vtkIdType* ids = nullptr;
+  vtkIdType count = 0;
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  {
+    cells->GetCellAtId(cell, count, ids);
+    if (!std::all_of(
+          ids, ids + count, [&](vtkIdType id) { return id >= 0 && id < numberOfPoints; }))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void CheckMesh(const std::string& file, vtkDataObject* data)
+{
+  vtkIdType polygons = 0;
+  for (vtkPolyData* part : GetParts(data))
+  {
+    if (part->GetPoints() && !AreFinite(part->GetPoints()))
+    {
+      InputFile::Refuse(file, "it has points that are NaN or infinite");
+    }
+    for (vtkCellArray* cells : { part->GetPolys(), part->GetStrips() })
+    {
+      if (!ReferToPoints(cells, part->GetNumberOfPoints()))
+      {
+        InputFile::Refuse(file, "it has polygons that refer to points which do not exist");
+      }
+      polygons += cells->GetNumberOfCells();
+    }
+  }
+  if (polygons == 0)
+  {
+    InputFile::Refuse(file, "it holds no polygons");
+  }
+}
+}
+
+vtkSmartPointer<vtkDataObject> MeshReader::Read(
+  const std::string& file, Messages& messages, Terminal& terminal)
+{
+  InputFile::CheckReadable(file);
+  const Format& format = FindFormat(file);
+  if (format.Check)
+  {
+    format.Check(file);
+  }
+  const LowerCaseName name(file, format.Extension);
+  const auto reader = format.MakeReader(name.Get());
+  terminal.Watch(reader, "reading");
+  reader->Update();
+
+  const auto errors = messages.TakeErrors();
+  if (!errors.empty())
+  {
+    InputFile::Refuse(file, errors.front());
+  }
+  vtkSmartPointer<vtkDataObject> data = reader->GetOutputDataObject(0);
+  CheckMesh(file, data);
+  return data;
+}
+
+std::string MeshReader::GetExtensions()
+{
+  std::string extensions;
+  for (const Format& format : Formats)
+  {
+    extensions += (extensions.empty() ? "" : ", ") + std::string(format.Extension);
+  }
+  return extensions;
+}

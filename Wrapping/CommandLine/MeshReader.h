@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MeshReader.h
+ * Reads a mesh by VTK's reader for its extension.
+ */
+
+#ifndef MeshReader_h
+#define MeshReader_h
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class Messages;
+class Terminal;
+class vtkDataObject;
+
+namespace MeshReader
+{
+/**
+ * The mesh of a file: a vtkPolyData, or a composite of them with the transforms of their nodes
+ * applied. It has polygons or strips, and all its points are finite. Throws Failure with
+ * ExitCode::Input otherwise.
+ */
+vtkSmartPointer<vtkDataObject> Read(
+  const std::string& file, Messages& messages, Terminal& terminal);
+
+/// What can be read, for messages: ".stl, .ply ...".
+std::string GetExtensions();
+}
+
+#endif

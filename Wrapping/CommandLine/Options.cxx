@@ -1,0 +1,522 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Options.h"
+
+#include "Failure.h"
+#include "FileNames.h"
+#include "ImageOutput.h"
+#include "MeshReader.h"
+#include "ReferenceImage.h"
+
+#include "vtkSlicemapSolidVoxelizer.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace
+{
+using Voxelizer = vtkSlicemapSolidVoxelizer;
+
+/// The smallest positive double: a lower bound that leaves out zero.
+constexpr double Positive = std::numeric_limits<double>::denorm_min();
+
+[[noreturn]] void Refuse(const std::string& message)
+{
+  throw Failure(ExitCode::Usage, message + " (see vtkvoxelize --help)");
+}
+
+/**
+ * One value of an option, with checks whose messages name the option.
+ */
+class Argument
+{
+public:
+  Argument(std::string option, std::string text)
+    : Option(std::move(option))
+    , Text(std::move(text))
+  {
+  }
+
+  std::string AsFile() const
+  {
+    if (this->Text.empty())
+    {
+      Refuse(this->Option + " needs the name of a file");
+    }
+    return this->Text;
+  }
+
+  int AsInteger(int lowest, int highest = std::numeric_limits<int>::max()) const
+  {
+    const char* const end = this->Text.data() + this->Text.size();
+    int value = 0;
+    const auto [rest, error] = std::from_chars(this->Text.data(), end, value);
+    if (error == std::errc::invalid_argument || rest != end)
+    {
+      this->Refuse("is not a whole number");
+    }
+    const bool negative = this->Text.front() == '-';
+    if (error == std::errc::result_out_of_range)
+    {
+      this->Refuse(negative ? "is negative" : "is too large");
+    }
+    if (value < lowest)
+    {
+      this->Refuse((negative ? "is negative; the least is " : "is too small; the least is ") +
+        std::to_string(lowest));
+    }
+    if (value > highest)
+    {
+      this->Refuse("is too large; the most is " + std::to_string(highest));
+    }
+    return value;
+  }
+
+  double AsReal(double lowest = std::numeric_limits<double>::lowest()) const
+  {
+    char* rest = nullptr;
+    const double value = std::strtod(this->Text.c_str(), &rest);
+    if (this->Text.empty() || *rest != '\0' || !std::isfinite(value))
+    {
+      this->Refuse("is not a number");
+    }
+    if (value < lowest)
+    {
+      this->Refuse(value < 0.0 ? "is negative" : "is zero; it must be positive");
+    }
+    return value;
+  }
+
+  /// The values between commas.
+  std::vector<Argument> Split(std::size_t count) const
+  {
+    std::vector<Argument> parts;
+    std::istringstream text(this->Text);
+    for (std::string part; std::getline(text, part, ',');)
+    {
+      parts.emplace_back(this->Option, part);
+    }
+    if (parts.size() != count || this->Text.back() == ',')
+    {
+      this->Refuse("is not a list of " + std::to_string(count) + " numbers with commas between");
+    }
+    return parts;
+  }
+
+  int AsChoice(const std::vector<std::pair<std::string, int>>& choices) const
+  {
+    std::string names;
+    for (const auto& [name, value] : choices)
+    {
+      if (name == this->Text)
+      {
+        return value;
+      }
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    this->Refuse("is none of " + names);
+  }
+
+  std::array<int, 3> AsDimensions() const
+  {
+    std::array<int, 3> dimensions{};
+    const auto parts = this->Split(dimensions.size());
+    std::transform(parts.begin(), parts.end(), dimensions.begin(),
+      [](const Argument& part) { return part.AsInteger(1); });
+    return dimensions;
+  }
+
+  std::array<double, 6> AsBounds() const
+  {
+    std::array<double, 6> bounds{};
+    const auto parts = this->Split(bounds.size());
+    std::transform(parts.begin(), parts.end(), bounds.begin(),
+      [](const Argument& part) { return part.AsReal(); });
+    for (const int axis : { 0, 1, 2 })
+    {
+      if (!(bounds[2 * axis] < bounds[2 * axis + 1]))
+      {
+        this->Refuse(std::string("is no box: its upper bound along ") + "xyz"[axis] +
+          " must be greater than its lower one");
+      }
+    }
+    return bounds;
+  }
+
+private:
+  [[noreturn]] void Refuse(const std::string& complaint) const
+  {
+    ::Refuse(this->Option + ": '" + this->Text + "' " + complaint);
+  }
+
+  std::string Option;
+  std::string Text;
+};
+
+struct Definition
+{
+  const char* Name;
+  const char* ValueName; // null for a switch
+  const char* Help;
+  void (*Store)(Options&, const Argument&);
+};
+
+struct Group
+{
+  const char* Title;
+  std::vector<Definition> Definitions;
+};
+
+const std::vector<Group>& GetGroups()
+{
+  static const std::vector<Group> groups = {
+    { "Grid",
+      {
+        { "--resolution", "N", "N voxels along the longest side; voxels are cubes (default: 128)",
+          [](Options& o, const Argument& a) { o.Resolution = a.AsInteger(1); } },
+        { "--dimensions", "X,Y,Z",
+          "number of voxels along each axis, before padding; voxels are cubes, and the\n"
+          "box grows evenly where the numbers ask for it",
+          [](Options& o, const Argument& a) { o.Dimensions = a.AsDimensions(); } },
+        { "--voxel-size", "S", "edge length of a voxel, in the units of the mesh",
+          [](Options& o, const Argument& a) { o.VoxelSize = a.AsReal(Positive); } },
+        { "--bounds", "X0,X1,Y0,Y1,Z0,Z1",
+          "the box to voxelize, in the units of the mesh (default: that of the mesh)",
+          [](Options& o, const Argument& a) { o.Bounds = a.AsBounds(); } },
+        { "--padding", "N", "N more voxels on every side of the box (default: 0)",
+          [](Options& o, const Argument& a)
+          { o.Padding = a.AsInteger(0, std::numeric_limits<int>::max() / 4); } },
+        { "--reference", "IMAGE",
+          "take extent, spacing, origin and direction matrix of this image:\n"
+          "@REFERENCES@",
+          [](Options& o, const Argument& a) { o.Reference = a.AsFile(); } },
+      } },
+    { "Voxels",
+      {
+        { "--mode", "MODE",
+          "which voxels are set:\n"
+          "center    those whose centre is inside (default)\n"
+          "over      these and all that the surface touches\n"
+          "under     those that lie inside as a whole\n"
+          "boundary  those that the surface touches",
+          [](Options& o, const Argument& a)
+          {
+            o.Mode = a.AsChoice(
+              { { "center", Voxelizer::MODE_CENTER }, { "over", Voxelizer::MODE_OVER_CONSERVATIVE },
+                { "under", Voxelizer::MODE_UNDER_CONSERVATIVE },
+                { "boundary", Voxelizer::MODE_BOUNDARY } });
+          } },
+        { "--fill", "RULE",
+          "what is inside where surfaces overlap or have holes:\n"
+          "parity    an odd number of crossings on the way there (default)\n"
+          "nonzero   a winding number other than zero: the union of closed surfaces\n"
+          "vote      parity along all three axes, the majority wins: for dirty meshes, with holes",
+          [](Options& o, const Argument& a)
+          {
+            o.FillRule = a.AsChoice({ { "parity", Voxelizer::FILL_RULE_PARITY },
+              { "nonzero", Voxelizer::FILL_RULE_NON_ZERO },
+              { "vote", Voxelizer::FILL_RULE_VOTE } });
+          } },
+        { "--axis", "AXIS",
+          "auto, x, y or z: the axis along which crossings are counted; auto is the one\n"
+          "with the least work (default)",
+          [](Options& o, const Argument& a)
+          {
+            o.ColumnAxis = a.AsChoice(
+              { { "auto", Voxelizer::COLUMN_AXIS_AUTO }, { "x", Voxelizer::COLUMN_AXIS_X },
+                { "y", Voxelizer::COLUMN_AXIS_Y }, { "z", Voxelizer::COLUMN_AXIS_Z } });
+          } },
+        { "--backend", "BACKEND",
+          "auto, raster (OpenGL 3.2) or compute (OpenGL 4.3); auto is compute where there\n"
+          "is such an OpenGL (default). No display and no GPU are needed.",
+          [](Options& o, const Argument& a)
+          {
+            o.Backend = a.AsChoice({ { "auto", Voxelizer::BACKEND_AUTO },
+              { "raster", Voxelizer::BACKEND_RASTER }, { "compute", Voxelizer::BACKEND_COMPUTE } });
+          } },
+      } },
+    { "Output",
+      {
+        { "--type", "TYPE", "uchar (default), or bit, which takes an eighth of the memory",
+          [](Options& o, const Argument& a) {
+            o.ScalarType = a.AsChoice({ { "uchar", VTK_UNSIGNED_CHAR }, { "bit", VTK_BIT } });
+          } },
+        { "--value", "V", "value of the voxels that are set, 1 to 255 (default: 1); others are 0",
+          [](Options& o, const Argument& a) { o.Value = a.AsInteger(1, 255); } },
+        { "--cells", nullptr, "voxels are the cells of the image, instead of its points",
+          [](Options& o, const Argument&) { o.Cells = true; } },
+        { "--picture", "FILE.png", "also draw the voxels that are set",
+          [](Options& o, const Argument& a) { o.Picture = a.AsFile(); } },
+        { "--up", "AXIS", "x, y or z: the axis that points up in the picture (default: y)",
+          [](Options& o, const Argument& a) {
+            o.UpAxis = a.AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } });
+          } },
+        { "--info", nullptr,
+          "print triangles, grid, filled voxels, volume, leaking columns, times and the\n"
+          "OpenGL renderer, one a line, on the standard output",
+          [](Options& o, const Argument&) { o.Info = true; } },
+        { "--quiet", nullptr, "no progress bar and no warnings, errors only",
+          [](Options& o, const Argument&) { o.Quiet = true; } },
+      } },
+    { "Other",
+      {
+        { "--help", nullptr, "print this text",
+          [](Options& o, const Argument&) { o.Help = true; } },
+        { "--version", nullptr, "print the version, and that of VTK",
+          [](Options& o, const Argument&) { o.Version = true; } },
+      } },
+  };
+  return groups;
+}
+
+const Definition& FindDefinition(const std::string& name)
+{
+  for (const Group& group : GetGroups())
+  {
+    for (const Definition& definition : group.Definitions)
+    {
+      if (name == definition.Name)
+      {
+        return definition;
+      }
+    }
+  }
+  Refuse("unknown option " + name);
+}
+
+using Names = std::set<std::string>;
+
+void RefuseTogether(const Names& given, const std::string& one,
+  const std::vector<std::string>& others, const std::string& why)
+{
+  for (const std::string& other : others)
+  {
+    if (given.count(one) && given.count(other))
+    {
+      Refuse(one + " and " + other + " contradict each other: " + why);
+    }
+  }
+}
+
+void RefuseSameFile(const std::string& one, const std::string& file, const std::string& other,
+  const std::string& name)
+{
+  if (FileNames::AreSame(file, name))
+  {
+    Refuse(one + " and " + other + " are the same file, " + file);
+  }
+}
+
+void CheckFiles(const Options& options)
+{
+  RefuseSameFile("INPUT", options.Input, "OUTPUT", options.Output);
+  if (options.Reference)
+  {
+    RefuseSameFile("--reference", *options.Reference, "OUTPUT", options.Output);
+  }
+  if (options.Picture)
+  {
+    RefuseSameFile("INPUT", options.Input, "--picture", *options.Picture);
+    RefuseSameFile("OUTPUT", options.Output, "--picture", *options.Picture);
+    if (options.Reference)
+    {
+      RefuseSameFile("--reference", *options.Reference, "--picture", *options.Picture);
+    }
+  }
+}
+
+void CheckTogether(const Options& options, const Names& given)
+{
+  const std::string oneSize = "each gives the size of the voxels";
+  RefuseTogether(given, "--resolution", { "--dimensions", "--voxel-size" }, oneSize);
+  RefuseTogether(given, "--dimensions", { "--voxel-size" }, oneSize);
+  RefuseTogether(given, "--reference",
+    { "--resolution", "--dimensions", "--voxel-size", "--bounds", "--padding" },
+    "the grid is that of the reference image");
+
+  if (options.Mode == Voxelizer::MODE_BOUNDARY)
+  {
+    RefuseTogether(
+      given, "--mode", { "--fill", "--axis" }, "the mode boundary looks at the surface alone");
+  }
+  if (options.FillRule == Voxelizer::FILL_RULE_VOTE)
+  {
+    RefuseTogether(given, "--fill", { "--axis" }, "the rule vote takes all three axes");
+  }
+  if (options.ScalarType == VTK_BIT && options.Value.value_or(1) != 1)
+  {
+    RefuseTogether(given, "--type", { "--value" }, "a bit that is set is 1");
+  }
+  if (options.UpAxis && !options.Picture)
+  {
+    Refuse("--up is for the picture that --picture asks for");
+  }
+  if (options.ScalarType == VTK_BIT && !ImageOutput::HasBits(options.Output))
+  {
+    Refuse("--type bit and OUTPUT " + options.Output +
+      " contradict each other: this format has no bits; write a .vti file");
+  }
+  if (options.Cells && !ImageOutput::HasCells(options.Output))
+  {
+    Refuse("--cells and OUTPUT " + options.Output +
+      " contradict each other: this format has no cells; write a .vti file");
+  }
+}
+
+void StoreFiles(Options& options, const std::vector<std::string>& files)
+{
+  if (files.empty() || files[0].empty())
+  {
+    Refuse("INPUT and OUTPUT are missing");
+  }
+  if (files.size() == 1 || files[1].empty())
+  {
+    Refuse("OUTPUT is missing");
+  }
+  if (files.size() > 2)
+  {
+    Refuse("'" + files[2] + "' is one file too many; there are INPUT and OUTPUT only");
+  }
+  options.Input = files[0];
+  options.Output = files[1];
+}
+
+std::string Replaced(std::string text, const std::string& what, const std::string& with)
+{
+  const auto found = text.find(what);
+  return found == std::string::npos ? text : text.replace(found, what.size(), with);
+}
+
+void PrintDefinition(std::ostream& out, const Definition& definition)
+{
+  constexpr std::size_t column = 20;
+  std::string head = std::string("  ") + definition.Name;
+  if (definition.ValueName)
+  {
+    head += std::string(" ") + definition.ValueName;
+  }
+  if (head.size() + 2 > column)
+  {
+    head += "\n";
+    head.append(column, ' ');
+  }
+  else
+  {
+    head.resize(column, ' ');
+  }
+  out << head;
+  std::string indent;
+  std::istringstream lines(
+    Replaced(definition.Help, "@REFERENCES@", "any of " + ReferenceImage::GetExtensions()));
+  for (std::string line; std::getline(lines, line); indent = "\n" + std::string(column, ' '))
+  {
+    out << indent << line;
+  }
+  out << "\n";
+}
+}
+
+Options Options::Parse(const std::vector<std::string>& words)
+{
+  static const std::map<std::string, std::string> shortNames = { { "-h", "--help" },
+    { "-q", "--quiet" } };
+
+  Options options;
+  std::vector<std::string> files;
+  Names given;
+  bool onlyFiles = false;
+  for (auto word = words.begin(); word != words.end(); ++word)
+  {
+    if (onlyFiles || word->size() < 2 || word->front() != '-')
+    {
+      files.push_back(*word);
+      continue;
+    }
+    if (*word == "--")
+    {
+      onlyFiles = true;
+      continue;
+    }
+    const auto equals = word->find('=');
+    std::string name = word->substr(0, equals);
+    if (const auto found = shortNames.find(name); found != shortNames.end())
+    {
+      name = found->second;
+    }
+    const Definition& definition = FindDefinition(name);
+    std::string value;
+    if (equals != std::string::npos)
+    {
+      if (!definition.ValueName)
+      {
+        Refuse(name + " takes no value");
+      }
+      value = word->substr(equals + 1);
+    }
+    else if (definition.ValueName)
+    {
+      if (++word == words.end())
+      {
+        Refuse(name + " needs a value, " + definition.ValueName);
+      }
+      value = *word;
+    }
+    if (!given.insert(name).second)
+    {
+      Refuse(name + " is given twice");
+    }
+    definition.Store(options, Argument(name, value));
+  }
+  if (options.Help || options.Version)
+  {
+    return options;
+  }
+  StoreFiles(options, files);
+  CheckFiles(options);
+  CheckTogether(options, given);
+  return options;
+}
+
+std::string Options::GetHelp()
+{
+  std::ostringstream out;
+  out
+    << "Usage: vtkvoxelize [OPTIONS] INPUT OUTPUT\n\n"
+       "Turns a mesh into an image of voxels, solid by default, on the graphics processor or what\n"
+       "stands in for it.\n\n"
+       "  INPUT             the mesh: "
+    << MeshReader::GetExtensions()
+    << "\n"
+       "  OUTPUT            the image: "
+    << ImageOutput::GetExtensions() << "\n";
+  for (const Group& group : GetGroups())
+  {
+    out << "\n" << group.Title << ":\n";
+    for (const Definition& definition : group.Definitions)
+    {
+      PrintDefinition(out, definition);
+    }
+  }
+  out
+    << "\nExamples:\n"
+       "  vtkvoxelize bunny.ply bunny.vti\n"
+       "  vtkvoxelize --resolution 256 --picture part.png --info part.stl part.vti\n"
+       "  vtkvoxelize --fill vote --voxel-size 0.5 scan.obj scan.mha\n"
+       "  vtkvoxelize --reference ct.nrrd --value 3 liver.vtp liver.mha\n"
+       "\nExit codes:\n"
+       "  0  all is well\n"
+       "  1  the command line makes no sense\n"
+       "  2  INPUT or the reference image can't be read, or is no mesh\n"
+       "  3  voxelization failed: no OpenGL, a grid too large for the memory\n"
+       "  4  OUTPUT or the picture can't be written\n"
+       "Unless all is well, files that were there before are left as they were, and no others are\n"
+       "made.\n";
+  return out.str();
+}

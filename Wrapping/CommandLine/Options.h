@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Options.h
+ * The command line of vtkvoxelize: one table gives both its parser and its help.
+ */
+
+#ifndef Options_h
+#define Options_h
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct Options
+{
+  std::string Input;
+  std::string Output;
+
+  std::optional<int> Resolution;
+  std::optional<std::array<int, 3>> Dimensions;
+  std::optional<double> VoxelSize;
+  std::optional<std::array<double, 6>> Bounds;
+  std::optional<int> Padding;
+  std::optional<std::string> Reference;
+
+  ///@{
+  /**
+   * Constants of vtkSlicemapSolidVoxelizer and vtkVoxelizer; unset is their default.
+   */
+  std::optional<int> Mode;
+  std::optional<int> FillRule;
+  std::optional<int> ColumnAxis;
+  std::optional<int> Backend;
+  ///@}
+
+  std::optional<int> ScalarType;
+  std::optional<int> Value;
+  bool Cells = false;
+
+  std::optional<std::string> Picture;
+  std::optional<int> UpAxis;
+
+  bool Info = false;
+  bool Quiet = false;
+  bool Help = false;
+  bool Version = false;
+
+  static constexpr int DefaultResolution = 128;
+
+  /**
+   * The options in the words that follow the program's name. Throws Failure with ExitCode::Usage
+   * for words that make no sense, alone or together.
+   */
+  static Options Parse(const std::vector<std::string>& words);
+
+  static std::string GetHelp();
+};
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Report.h
+ * What --info prints.
+ */
+
+#ifndef Report_h
+#define Report_h
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkImageData;
+class vtkSlicemapSolidVoxelizer;
+
+/// Lines of a name and a value, the values in one column.
+class Report
+{
+public:
+  /// Runs a task and adds how long that took.
+  template <typename Task>
+  void Time(const std::string& name, const Task& task)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    task();
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    this->AddTime(name, time.count());
+  }
+
+  /// Adds what the voxelizer did; its image holds the voxels as its cells or as its points.
+  void Describe(vtkSlicemapSolidVoxelizer* voxelizer);
+
+  void Print() const;
+
+private:
+  void Add(const std::string& name, const std::string& value);
+  void AddTime(const std::string& name, double milliseconds);
+
+  std::vector<std::pair<std::string, std::string>> Facts;
+  std::vector<std::pair<std::string, std::string>> Times;
+};
+
+#endif
