@@ -8,8 +8,8 @@
 // LastSlice    the last slice of the columns, relative to FirstSlice; crossings behind all voxels
 //              flip this one, which is one more than there are voxels
 //
-// The depth is that of the triangle at the column's centre; where snapping lets a triangle reach farther
-// than it does, that of its point nearest by.
+// The depth is interpolated between the two edges of the triangle in the row of the column, so that it is
+// right even where the triangle is seen edge-on.
 
 uniform ivec2 TileFirst;
 uniform int FirstSlice;

@@ -7,7 +7,8 @@
 //
 // Vertices are snapped to 1/256 of a voxel, which rasterization does anyway; done here, the snapped
 // places are the same for every tile and on every GPU: all numbers from there on are exact. Depth is
-// not OpenGL's business, since nothing may be clipped by it; it goes along in the three points.
+// not OpenGL's business, since nothing may be clipped by it; it goes along in the three points, which
+// are the snapped ones, so that fragments lie on the triangle that they interpolate.
 
 uniform ivec2 TileFirst;
 uniform ivec2 TileSize;
@@ -32,8 +33,11 @@ void main()
 {
   vec3 points[3];
   fetchTriangle(uint(gl_VertexID / 3), points[0], points[1], points[2]);
-  vec2 snapped = floor(points[gl_VertexID % 3].xy * SUBPIXELS + 0.5) / SUBPIXELS;
-  vec2 pixel = snapped - vec2(TileFirst) + 0.5;
+  for (int i = 0; i < 3; ++i)
+  {
+    points[i].xy = floor(points[i].xy * SUBPIXELS + 0.5) / SUBPIXELS;
+  }
+  vec2 pixel = points[gl_VertexID % 3].xy - vec2(TileFirst) + 0.5;
   gl_Position = vec4(2.0 * pixel / vec2(TileSize) - 1.0, 0.0, 1.0);
 
   Lowest = points[0];

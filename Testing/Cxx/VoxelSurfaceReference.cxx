@@ -323,7 +323,7 @@ std::vector<double> DistanceToSurface(
 }
 
 //------------------------------------------------------------------------------------------------
-Volume TouchedVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads)
+Volume TouchedVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads, double nearMargin)
 {
   const IndexMesh triangles(mesh, grid, threads);
   std::vector<std::atomic<unsigned char>> touched(grid.NumberOfVoxels());
@@ -333,18 +333,18 @@ Volume TouchedVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads)
       for (std::int64_t cell = begin; cell < end; ++cell)
       {
         const Triangle triangle = triangles.GetTriangle(cell);
-        const std::array<int, 6> range = VoxelRange(triangle, 0.5 + NearMargin, grid);
+        const std::array<int, 6> range = VoxelRange(triangle, 0.5 + nearMargin, grid);
         if (IsEmpty(range))
         {
           continue;
         }
         const TriangleBoxTest test(triangle);
-        VisitNearVoxels(test, range, NearMargin,
+        VisitNearVoxels(test, range, nearMargin,
           [&](const Voxel& voxel)
           {
             const double distance = test.CubeDistance({ static_cast<double>(voxel[0]),
               static_cast<double>(voxel[1]), static_cast<double>(voxel[2]) });
-            const int near = distance <= 0.5 + NearMargin ? TouchedNearly : 0;
+            const int near = distance <= 0.5 + nearMargin ? TouchedNearly : 0;
             const int sure = distance <= 0.5 - SureMargin ? TouchedSurely : 0;
             touched[grid.Offset(voxel)].fetch_or(
               static_cast<unsigned char>(near | sure), std::memory_order_relaxed);

@@ -33,7 +33,7 @@ std::vector<double> DistanceToSurface(vtkPolyData* mesh, const Grid& grid,
 /// The bits of TouchedVoxelsReference.
 enum Touch : unsigned char
 {
-  TouchedNearly = 1, ///< the surface touches the closed voxel grown by NearMargin on all sides
+  TouchedNearly = 1, ///< the surface touches the closed voxel grown by nearMargin on all sides
   TouchedSurely = 2  ///< the surface touches the voxel shrunk by SureMargin on all sides
 };
 constexpr double NearMargin = 1e-5;
@@ -44,7 +44,8 @@ constexpr double SureMargin = 1e-9;
  * An over-conservative result has to hold all surely touched voxels, an under-conservative one none
  * of them; voxels that are touched nearly, but not surely, are rounding's to decide.
  */
-Volume TouchedVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads = DefaultThreads);
+Volume TouchedVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads = DefaultThreads,
+  double nearMargin = NearMargin);
 
 }
 

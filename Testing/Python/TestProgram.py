@@ -1,0 +1,960 @@
+"""Proves what vtkvoxelize promises, by running it.
+
+Voxels: boxes of every format that it reads come out with the very voxels whose centres they hold, in
+every format that it writes; grids, modes, fill rules, backends and reference images do what the help
+says. Manners: one line on the standard error for each bad command line, bad input or failing output,
+the documented exit code, no file left behind, and none touched that was there before.
+
+    TestProgram.py --program vtkvoxelize -D DATA_DIRECTORY [-T SCRATCH_DIRECTORY]
+"""
+
+import argparse
+import base64
+import itertools
+import json
+import math
+import os
+import pty
+import resource
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkIOImage import vtkMetaImageReader, vtkPNGReader
+from vtkmodules.vtkIOLegacy import vtkPolyDataWriter, vtkStructuredPointsWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter, vtkXMLPolyDataWriter
+
+USAGE, INPUT, VOXELIZATION, OUTPUT = 1, 2, 3, 4
+
+PROGRAM = None
+BUNNY = None
+SCRATCH = None
+
+# A box whose faces lie between voxel centres of grids with voxels of size 0.5.
+LOW, HIGH = (1.0, 2.0, 3.0), (3.0, 5.0, 7.0)
+BOX_VOXELS = 4 * 6 * 8
+BOX_VOLUME = 24.0
+
+
+def box(low=LOW, high=HIGH):
+    """Points and outward triangles of a box."""
+    points = list(itertools.product(*zip(low, high)))
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+
+
+def joined(*meshes):
+    points, triangles = [], []
+    for more_points, more_triangles in meshes:
+        triangles += [tuple(i + len(points) for i in t) for t in more_triangles]
+        points += more_points
+    return points, triangles
+
+
+def open_box():
+    """A box without its side of greatest x."""
+    points, triangles = box()
+    return points, [t for t in triangles if not all(points[i][0] == HIGH[0] for i in t)]
+
+
+def polydata(points, triangles, lines=()):
+    data = vtkPolyData()
+    data.SetPoints(vtkPoints())
+    for point in points:
+        data.GetPoints().InsertNextPoint(point)
+    for cells, set_cells in ((triangles, data.SetPolys), (lines, data.SetLines)):
+        array = vtkCellArray()
+        for cell in cells:
+            array.InsertNextCell(len(cell))
+            for i in cell:
+                array.InsertCellPoint(i)
+        set_cells(array)
+    return data
+
+
+def written(writer, data, path):
+    writer.SetInputData(data)
+    writer.SetFileName(str(path))
+    assert writer.Write()
+
+
+# Writers of meshes, by name of the file that they make. --------------------------------------------
+
+
+def stl_text(points, triangles):
+    text = "solid box\n"
+    for triangle in triangles:
+        text += " facet normal 0 0 0\n  outer loop\n"
+        text += "".join("   vertex %g %g %g\n" % points[i] for i in triangle)
+        text += "  endloop\n endfacet\n"
+    return (text + "endsolid box\n").encode()
+
+
+def stl_binary(points, triangles):
+    facets = [struct.pack("<12fH", 0, 0, 0, *(x for i in t for x in points[i]), 0) for t in triangles]
+    return bytes(80) + struct.pack("<I", len(triangles)) + b"".join(facets)
+
+
+def ply_head(points, triangles, encoding, list_name="vertex_indices"):
+    return (
+        f"ply\nformat {encoding} 1.0\ncomment a box\nelement vertex {len(points)}\n"
+        "property float x\nproperty float y\nproperty float z\n"
+        f"element face {len(triangles)}\nproperty list uchar int {list_name}\nend_header\n"
+    ).encode()
+
+
+def ply_text(points, triangles, list_name="vertex_indices"):
+    lines = ["%g %g %g" % p for p in points] + ["3 %d %d %d" % t for t in triangles]
+    return ply_head(points, triangles, "ascii", list_name) + ("\n".join(lines) + "\n").encode()
+
+
+def ply_binary(points, triangles, order="<"):
+    encoding = "binary_little_endian" if order == "<" else "binary_big_endian"
+    body = [struct.pack(order + "3f", *p) for p in points]
+    body += [struct.pack(order + "B3i", 3, *t) for t in triangles]
+    return ply_head(points, triangles, encoding) + b"".join(body)
+
+
+def obj(points, triangles):
+    lines = ["v %g %g %g" % p for p in points]
+    return ("\n".join(lines + ["f %d %d %d" % tuple(i + 1 for i in t) for t in triangles]) + "\n").encode()
+
+
+def gltf_parts():
+    """The unit cube, which the matrices of two nodes move to the place of the box."""
+    points, triangles = box((0, 0, 0), (1, 1, 1))
+    data = b"".join(struct.pack("<3f", *p) for p in points)
+    indices = b"".join(struct.pack("<3H", *t) for t in triangles)
+    size = [h - l for l, h in zip(LOW, HIGH)]
+    scene = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [
+            {"translation": [LOW[0], LOW[1], LOW[2]], "children": [1]},
+            {"scale": size, "mesh": 0},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"byteLength": len(data) + len(indices)}],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": len(data), "target": 34962},
+            {"buffer": 0, "byteOffset": len(data), "byteLength": len(indices), "target": 34963},
+        ],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3",
+             "min": [0, 0, 0], "max": [1, 1, 1]},
+            {"bufferView": 1, "componentType": 5123, "count": 3 * len(triangles), "type": "SCALAR"},
+        ],
+    }
+    return scene, data + indices
+
+
+def gltf():
+    scene, data = gltf_parts()
+    scene["buffers"][0]["uri"] = (
+        "data:application/octet-stream;base64," + base64.b64encode(data).decode())
+    return json.dumps(scene).encode()
+
+
+def glb():
+    scene, data = gltf_parts()
+    text = json.dumps(scene).encode()
+    text += b" " * (-len(text) % 4)
+    data += bytes(-len(data) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
+    chunks += struct.pack("<II", len(data), 0x004E4942) + data
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+
+
+# Images --------------------------------------------------------------------------------------------
+
+
+def turned(about_z):
+    c, s = math.cos(math.radians(about_z)), math.sin(math.radians(about_z))
+    return [c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0]
+
+
+class Image:
+    """Geometry and scalars of an image, whose voxels are its points or its cells."""
+
+    def __init__(self, data):
+        cells = data.GetPointData().GetScalars() is None
+        self.scalars = (data.GetCellData() if cells else data.GetPointData()).GetScalars()
+        self.dimensions = tuple(n - cells for n in data.GetDimensions())
+        self.extent = data.GetExtent()
+        self.data = data
+        self.cells = cells
+
+    def values(self):
+        return [int(self.scalars.GetTuple1(i)) for i in range(self.scalars.GetNumberOfTuples())]
+
+    def filled(self):
+        return sum(value != 0 for value in self.values())
+
+    def centers(self):
+        """World positions of the voxels' centres, in the order of the scalars."""
+        first = self.extent[::2]
+        shift = 0.5 if self.cells else 0.0
+        for k, j, i in itertools.product(*(range(n) for n in reversed(self.dimensions))):
+            point = [0.0, 0.0, 0.0]
+            self.data.TransformContinuousIndexToPhysicalPoint(
+                first[0] + i + shift, first[1] + j + shift, first[2] + k + shift, point)
+            yield point
+
+
+def read_vti(path):
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return Image(reader.GetOutput())
+
+
+def read_meta(path):
+    """By VTK's reader, which leaves the direction matrix out; it is taken from the header."""
+    reader = vtkMetaImageReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    image = vtkImageData()
+    image.DeepCopy(reader.GetOutput())
+    header = path.read_bytes().partition(b"ElementDataFile")[0].decode()
+    fields = dict(line.split(" = ", 1) for line in header.splitlines())
+    columns = [float(x) for x in fields["TransformMatrix"].split()]
+    image.SetDirectionMatrix([columns[3 * (i % 3) + i // 3] for i in range(9)])
+    return Image(image)
+
+
+def is_in_box(point):
+    return all(low < x < high for low, x, high in zip(LOW, point, HIGH))
+
+
+class ProgramTest(unittest.TestCase):
+    maxDiff = 2000
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(dir=SCRATCH)
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def file(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content)
+        return path
+
+    def mesh(self):
+        return self.file("box.ply", ply_binary(*box()))
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def call(self, *words, **more):
+        return subprocess.run(
+            [PROGRAM, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300, check=False, **more)
+
+    def succeed(self, *words, warnings=(), **more):
+        done = self.call(*words, **more)
+        lines = done.stderr.splitlines()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(lines), len(warnings), done.stderr)
+        for line, text in zip(lines, warnings):
+            self.assertTrue(line.startswith("vtkvoxelize: warning: "), line)
+            self.assertIn(text, line)
+        return done.stdout
+
+    def fail(self, code, *words, naming=(), **more):
+        """One line that names what is wrong, and all files as they were."""
+        before = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
+        done = self.call(*words, **more)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertTrue(done.stderr.startswith("vtkvoxelize: error: "), done.stderr)
+        self.assertTrue(done.stderr.endswith("\n"))
+        for text in naming:
+            self.assertIn(text, done.stderr)
+        after = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
+        self.assertEqual(after, before)
+        return done.stderr
+
+    def info(self, *words, **more):
+        """The lines of --info, by name."""
+        lines = self.succeed("--info", *words, **more).splitlines()
+        return {line[:17].strip(): line[17:] for line in lines}
+
+
+class TestMeshes(ProgramTest):
+    def check(self, name):
+        """The file holds the box; its voxels are all there are."""
+        out = self.folder / "out.vti"
+        report = self.info("--voxel-size", 0.5, name, out)
+        self.assertEqual(report["triangles"], "12")
+        self.assertEqual(report["filled voxels"], f"{BOX_VOXELS} (100 %)")
+        image = read_vti(out)
+        self.assertEqual(image.dimensions, (4, 6, 8))
+        self.assertEqual(image.data.GetOrigin(), (1.25, 2.25, 3.25))
+        self.assertEqual(image.values(), [1] * BOX_VOXELS)
+
+    def test_formats(self):
+        meshes = {
+            "text.stl": stl_text(*box()),
+            "binary.stl": stl_binary(*box()),
+            "UPPER.STL": stl_binary(*box()),
+            "text.ply": ply_text(*box()),
+            "vertex_index.ply": ply_text(*box(), "vertex_index"),
+            "little.ply": ply_binary(*box()),
+            "big.ply": ply_binary(*box(), ">"),
+            "mesh.obj": obj(*box()),
+            "data_uri.gltf": gltf(),
+            "mesh.glb": glb(),
+            "Mesh.GlB": glb(),
+        }
+        for name, content in meshes.items():
+            with self.subTest(name):
+                self.check(self.file(name, content))
+
+    def test_formats_of_vtk(self):
+        for name, writer in ("box.vtp", vtkXMLPolyDataWriter()), ("box.vtk", vtkPolyDataWriter()):
+            with self.subTest(name):
+                written(writer, polydata(*box()), self.folder / name)
+                self.check(name)
+
+    def test_gltf_with_a_file_of_data(self):
+        scene, data = gltf_parts()
+        scene["buffers"][0]["uri"] = "box.bin"
+        self.file("box.bin", data)
+        self.check(self.file("box.gltf", json.dumps(scene).encode()))
+
+    def test_text_without_a_last_line_end(self):
+        for name, content in ("box.ply", ply_text(*box())), ("box.obj", obj(*box())):
+            with self.subTest(name):
+                self.check(self.file(name, content.rstrip(b"\n")))
+
+    def test_obj_with_relative_indices_and_textures(self):
+        points, triangles = box()
+        text = "".join("v %g %g %g\n" % p for p in points) + "vt 0 0\nvn 0 0 1\n"
+        for t in triangles:
+            text += "f " + " ".join(f"{i - len(points)}/-1/1" for i in t) + "\n"
+        self.check(self.file("box.obj", text.encode()))
+
+    def test_lines_beside_polygons_are_left_out(self):
+        points, triangles = box()
+        lines = [(0, len(points))]
+        written(vtkXMLPolyDataWriter(), polydata(points + [(0, 0, 0)], triangles, lines),
+                self.folder / "box.vtp")
+        report = self.info("--voxel-size", 0.5, "--bounds", "1,3,2,5,3,7", "box.vtp", "out.vti")
+        self.assertEqual(report["triangles"], "12")
+        self.assertEqual(report["filled voxels"].split()[0], str(BOX_VOXELS))
+
+
+class TestGrids(ProgramTest):
+    def voxelize(self, *options, **more):
+        self.succeed(*options, self.mesh(), "out.vti", **more)
+        return read_vti(self.folder / "out.vti")
+
+    def check(self, image):
+        """Every voxel is set whose centre lies in the box, and no other."""
+        self.assertEqual(
+            image.values(), [int(is_in_box(center)) for center in image.centers()])
+        self.assertIn(1, image.values())
+
+    def test_default_resolution(self):
+        self.assertEqual(max(self.voxelize().dimensions), 128)
+
+    def test_resolution(self):
+        image = self.voxelize("--resolution", 16)
+        self.assertEqual(image.dimensions, (8, 12, 16))
+        self.check(image)
+
+    def test_dimensions(self):
+        image = self.voxelize("--dimensions", "6,6,6")
+        self.assertEqual(image.dimensions, (6, 6, 6))
+        self.assertEqual(len(set(image.data.GetSpacing())), 1)
+        self.check(image)
+
+    def test_voxel_size_and_padding(self):
+        image = self.voxelize("--voxel-size=0.5", "--padding=2")
+        self.assertEqual(image.dimensions, (8, 10, 12))
+        self.assertEqual(image.data.GetSpacing(), (0.5, 0.5, 0.5))
+        self.check(image)
+
+    def test_bounds(self):
+        image = self.voxelize("--voxel-size", 0.5, "--bounds", "-2,2,0,4,-1,5")
+        self.assertEqual(image.dimensions, (8, 8, 12))
+        self.check(image)
+
+    def test_bounds_beside_the_mesh_warn(self):
+        image = self.voxelize("--voxel-size", 1, "--bounds", "20,24,0,4,0,4",
+                              warnings=["no voxel is set"])
+        self.assertEqual(image.filled(), 0)
+
+    def reference(self):
+        image = vtkImageData()
+        image.SetExtent(5, 24, -3, 16, 2, 21)
+        image.SetSpacing(0.31, 0.37, 0.43)
+        image.SetDirectionMatrix(turned(30))
+        image.SetOrigin(0.7, -1.4, 0.9)
+        image.AllocateScalars(3, 1)
+        return image
+
+    def check_reference(self, name, extent, spacing, origin, direction):
+        image = self.voxelize("--reference", self.folder / name)
+        self.assertEqual(image.extent, extent)
+        for got, wanted in (
+            (image.data.GetSpacing(), spacing),
+            (image.data.GetOrigin(), origin),
+            (self.direction(image), direction),
+        ):
+            for a, b in zip(got, wanted):
+                self.assertAlmostEqual(a, b, places=12)
+        self.check(image)
+
+    @staticmethod
+    def direction(image):
+        matrix = image.data.GetDirectionMatrix()
+        return [matrix.GetElement(i // 3, i % 3) for i in range(9)]
+
+    def test_reference_vti(self):
+        image = self.reference()
+        written(vtkXMLImageDataWriter(), image, self.folder / "reference.vti")
+        self.check_reference("reference.vti", image.GetExtent(), image.GetSpacing(),
+                             image.GetOrigin(), turned(30))
+
+    def test_reference_vtk(self):
+        image = self.reference()
+        image.SetDirectionMatrix([1, 0, 0, 0, 1, 0, 0, 0, 1])  # which this format can't hold
+        writer = vtkStructuredPointsWriter()
+        writer.WriteExtentOn()
+        written(writer, image, self.folder / "reference.vtk")
+        self.check_reference("reference.vtk", image.GetExtent(), image.GetSpacing(),
+                             image.GetOrigin(), [1, 0, 0, 0, 1, 0, 0, 0, 1])
+
+    def test_reference_meta_image(self):
+        d = turned(30)
+        columns = " ".join(repr(d[3 * (i % 3) + i // 3]) for i in range(9))
+        head = ("ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                f"TransformMatrix = {columns}\nOffset = 1 -2 3\nElementSpacing = 0.3 0.4 0.5\n"
+                "DimSize = 12 14 10\nElementType = MET_UCHAR\nElementDataFile = ")
+        self.file("reference.mha", head.encode() + b"LOCAL\n" + bytes(12 * 14 * 10))
+        self.file("reference.mhd", head.encode() + b"reference.raw\n")
+        self.file("reference.raw", bytes(12 * 14 * 10))
+        for name in "reference.mha", "reference.mhd":
+            with self.subTest(name):
+                self.check_reference(name, (0, 11, 0, 13, 0, 9), (0.3, 0.4, 0.5), (1, -2, 3), d)
+
+    def test_reference_nrrd(self):
+        d, spacing = turned(30), (0.3, 0.4, 0.5)
+        vectors = " ".join(
+            "(%r,%r,%r)" % tuple(d[3 * row + axis] * spacing[axis] for row in range(3))
+            for axis in range(3))
+        head = ("NRRD0004\ntype: uchar\ndimension: 3\nspace dimension: 3\nsizes: 12 14 10\n"
+                f"space directions: {vectors}\nkinds: domain domain domain\nencoding: raw\n"
+                "space origin: (1,-2,3)\n\n")
+        self.file("reference.nrrd", head.encode() + bytes(12 * 14 * 10))
+        self.check_reference("reference.nrrd", (0, 11, 0, 13, 0, 9), spacing, (1, -2, 3), d)
+
+    def test_reference_into_meta_image(self):
+        image = self.reference()
+        written(vtkXMLImageDataWriter(), image, self.folder / "reference.vti")
+        self.succeed("--reference", "reference.vti", self.mesh(), "out.mha")
+        self.check(read_meta(self.folder / "out.mha"))
+
+    def test_bad_references(self):
+        mesh = self.mesh()
+        self.fail(INPUT, "--reference", "none.vti", mesh, "out.vti", naming=["none.vti"])
+        self.fail(INPUT, "--reference", ".", mesh, "out.vti", naming=["folder"])
+        self.fail(INPUT, "--reference", mesh, mesh.name, "out.vti", naming=["box.ply", ".mha"])
+        for name in "text.vti", "text.mha", "text.nrrd", "text.vtk":
+            with self.subTest(name):
+                self.file(name, b"this is no image\n" * 20)
+                self.fail(INPUT, "--reference", name, mesh, "out.vti", naming=[name])
+
+
+class TestVoxels(ProgramTest):
+    def filled(self, *options, mesh=None, **more):
+        mesh = self.mesh() if mesh is None else self.file("mesh.ply", ply_binary(*mesh))
+        report = self.info(*options, mesh, "out.vti", **more)
+        return int(report["filled voxels"].split()[0])
+
+    def test_modes(self):
+        # Voxels from 0.75 to 3.25 and so on: the box ends in the middle of the outermost ones.
+        grid = ["--voxel-size", 0.5, "--bounds", "0.75,3.25,1.75,5.25,2.75,7.25"]
+        outer, inner = 5 * 7 * 9, 3 * 5 * 7
+        self.assertEqual(self.filled("--mode", "over", *grid), outer)
+        self.assertEqual(self.filled("--mode", "under", *grid), inner)
+        self.assertEqual(self.filled("--mode", "boundary", *grid), outer - inner)
+        grid = ["--voxel-size", 0.5]
+        self.assertEqual(self.filled("--mode", "center", *grid), BOX_VOXELS)
+
+    def test_fill_rules(self):
+        mesh = joined(box((0, 0, 0), (4, 4, 4)), box((2, 0, 0), (6, 4, 4)))
+        for rule, filled in ("parity", 64), ("nonzero", 96):
+            with self.subTest(rule):
+                self.assertEqual(self.filled("--fill", rule, "--voxel-size", 1, mesh=mesh), filled)
+
+    def test_holes(self):
+        leaky = ["--voxel-size", 0.5, "--padding", 2, "--axis", "x"]
+        self.filled(*leaky, mesh=open_box(), warnings=["4 open"])
+        self.assertEqual(self.filled(*leaky, mesh=box()), BOX_VOXELS)
+        vote = ["--voxel-size", 0.5, "--padding", 2, "--fill", "vote"]
+        self.assertEqual(self.filled(*vote, mesh=open_box()), BOX_VOXELS)
+
+    def test_quiet_has_no_warnings(self):
+        self.assertNotEqual(
+            self.filled("--voxel-size", 0.5, "--axis", "x", "--quiet", mesh=open_box()), 0)
+
+    def test_axes_and_backends(self):
+        for axis, backend in itertools.product(("auto", "x", "y", "z"), ("auto", "raster", "compute")):
+            with self.subTest(axis=axis, backend=backend):
+                report = self.info("--voxel-size", 0.5, "--axis", axis, "--backend", backend,
+                                   self.mesh(), "out.vti")
+                self.assertEqual(report["filled voxels"].split()[0], str(BOX_VOXELS))
+                self.assertIn(report["backend"], ("raster", "compute"))
+                if backend != "auto":
+                    self.assertEqual(report["backend"], backend)
+
+    def test_too_large(self):
+        self.fail(VOXELIZATION, "--dimensions", "60000,60000,60000", self.mesh(), "out.vti",
+                  naming=["60000 x 60000 x 60000", "MiB"])
+
+
+class TestOutput(ProgramTest):
+    def test_formats(self):
+        for name, read in ("a.vti", read_vti), ("b.mha", read_meta), ("c.mhd", read_meta), (
+                "D.VTI", read_vti):
+            with self.subTest(name):
+                before = set(self.names()) | {"box.ply"}
+                self.succeed("--voxel-size", 0.5, "--padding", 1, self.mesh(), name)
+                image = read(self.folder / name)
+                self.assertEqual(image.dimensions, (6, 8, 10))
+                self.assertEqual(
+                    image.values(), [int(is_in_box(center)) for center in image.centers()])
+                made = set(self.names()) - before
+                self.assertEqual(made, {name, "c.zraw"} if name == "c.mhd" else {name})
+
+    def test_value(self):
+        self.succeed("--value", 200, "--resolution", 8, "--padding", 1, self.mesh(), "out.vti")
+        self.assertEqual(set(read_vti(self.folder / "out.vti").values()), {0, 200})
+
+    def test_bits(self):
+        self.succeed("--type", "bit", "--voxel-size", 0.5, "--padding", 1, self.mesh(), "out.vti")
+        image = read_vti(self.folder / "out.vti")
+        self.assertEqual(image.scalars.GetClassName(), "vtkBitArray")
+        self.assertEqual(image.values(), [int(is_in_box(center)) for center in image.centers()])
+
+    def test_cells(self):
+        self.succeed("--cells", "--voxel-size", 0.5, "--padding", 1, self.mesh(), "out.vti")
+        image = read_vti(self.folder / "out.vti")
+        self.assertTrue(image.cells)
+        self.assertEqual(image.dimensions, (6, 8, 10))
+        self.assertEqual(image.values(), [int(is_in_box(center)) for center in image.centers()])
+
+    def test_info(self):
+        report = self.info("--voxel-size", 0.5, "--padding", 1, self.mesh(), "out.vti")
+        self.assertEqual(report["voxels"], "6 x 8 x 10")
+        self.assertEqual(report["spacing"], "0.5 0.5 0.5")
+        self.assertEqual(report["origin"], "0.75 1.75 2.75")
+        self.assertEqual(report["filled voxels"], f"{BOX_VOXELS} (40 %)")
+        self.assertEqual(float(report["filled volume"]), BOX_VOLUME)
+        self.assertEqual(report["leaking columns"], "0")
+        self.assertTrue(report["renderer"])
+        for task in "reading", "voxelizing", "writing":
+            self.assertRegex(report[task], r"^[0-9.e+-]+ ms$")
+
+    def test_silent_unless_asked(self):
+        self.assertEqual(self.succeed("--resolution", 16, BUNNY, "out.vti"), "")
+
+    def test_name_that_begins_with_a_dash(self):
+        self.file("-box.ply", ply_binary(*box()))
+        self.succeed("--resolution", 8, "--", "-box.ply", "-out.vti")
+        self.assertIn("-out.vti", self.names())
+
+    def test_link_stays_a_link(self):
+        self.file("real.vti", b"old")
+        (self.folder / "link.vti").symlink_to("real.vti")
+        self.succeed("--resolution", 8, self.mesh(), "link.vti")
+        self.assertTrue((self.folder / "link.vti").is_symlink())
+        self.assertEqual(max(read_vti(self.folder / "real.vti").dimensions), 8)
+
+    def test_old_output_is_replaced(self):
+        self.file("out.vti", b"old")
+        self.succeed("--resolution", 8, self.mesh(), "out.vti")
+        self.assertEqual(max(read_vti(self.folder / "out.vti").dimensions), 8)
+        self.assertEqual(self.names(), ["box.ply", "out.vti"])
+
+    def test_unwritable(self):
+        mesh = self.mesh()
+        (self.folder / "folder.vti").mkdir()
+        self.fail(OUTPUT, mesh, "folder.vti", naming=["folder.vti", "folder"])
+        self.fail(OUTPUT, mesh, "none/out.vti", naming=["none/out.vti", "No such file"])
+        self.fail(OUTPUT, mesh, "box.ply/out.vti", naming=["box.ply/out.vti"])
+        self.fail(OUTPUT, mesh, "/proc/out.vti", naming=["/proc/out.vti"])
+        self.fail(OUTPUT, mesh, "out.nrrd", naming=["NRRD", ".vti", ".mha"])
+        self.fail(OUTPUT, mesh, "out.png", naming=[".png", ".vti"])
+        self.fail(OUTPUT, mesh, "out", naming=["no extension", ".vti"])
+        self.fail(OUTPUT, "--picture", "out.jpg", mesh, "out.vti", naming=["out.jpg", ".png"])
+
+    def test_disk_full(self):
+        def limit(size):
+            return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        for name in "out.vti", "out.mha", "out.mhd":
+            with self.subTest(name):
+                self.file(name, b"old")
+                self.fail(OUTPUT, BUNNY, name, preexec_fn=limit(4096), naming=[name, "File too large"])
+        with self.subTest("picture"):
+            self.fail(OUTPUT, "--resolution", 16, "--picture", "out.png", BUNNY, "out.vti",
+                      preexec_fn=limit(20000), naming=["out.png", "File too large"])
+
+    def test_disk_full_at_the_very_end(self):
+        self.succeed("--resolution", 16, BUNNY, "full.vti")
+        size = (self.folder / "full.vti").stat().st_size
+        for missing in 1, 20, 300:
+            with self.subTest(missing=missing):
+                self.fail(OUTPUT, "--resolution", 16, BUNNY, "out.vti", naming=["out.vti"],
+                          preexec_fn=lambda: resource.setrlimit(
+                              resource.RLIMIT_FSIZE, (size - missing,) * 2))
+
+    def test_signals_leave_nothing(self):
+        self.file("out.vti", b"old")
+        for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+            with self.subTest(number):
+                with subprocess.Popen(
+                        [PROGRAM, "--resolution", "400", "--picture", "out.png", BUNNY, "out.vti"],
+                        cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+                    deadline = time.monotonic() + 60
+                    while len(self.names()) < 3 and time.monotonic() < deadline:
+                        time.sleep(0.01)
+                    self.assertEqual(len(self.names()), 3)  # the old one and both staged ones
+                    time.sleep(0.2)
+                    process.send_signal(number)
+                    _, error = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, -number)
+                self.assertEqual(error, b"")
+                self.assertEqual(self.names(), ["out.vti"])
+                self.assertEqual((self.folder / "out.vti").read_bytes(), b"old")
+
+
+class TestPicture(ProgramTest):
+    def pixels(self, name):
+        reader = vtkPNGReader()
+        reader.SetFileName(str(self.folder / name))
+        reader.Update()
+        image = reader.GetOutput()
+        width, height, _ = image.GetDimensions()
+        colors = bytes(memoryview(image.GetPointData().GetScalars()))
+        return width, height, [colors[i:i + 3] for i in range(0, len(colors), 3)]
+
+    def check_drawn(self, name, background=(0.2, 0.95)):
+        """White at the border, and a good part of the rest is not."""
+        width, height, pixels = self.pixels(name)
+        self.assertEqual(max(width, height), 1200)
+        border = pixels[:width] + pixels[-width:] + pixels[::width] + pixels[width - 1::width]
+        self.assertEqual(set(border), {b"\xff\xff\xff"})
+        colored = sum(max(p) - min(p) > 60 for p in pixels) / len(pixels)
+        self.assertGreater(colored, 1.0 - background[1])
+        self.assertLess(colored, 1.0 - background[0])
+        return width, height
+
+    def test_bunny(self):
+        self.succeed("--resolution", 48, "--picture", "out.png", BUNNY, "out.vti")
+        self.assertEqual(self.names(), ["out.png", "out.vti"])
+        self.check_drawn("out.png")
+
+    def test_up(self):
+        mesh = self.file("pole.ply", ply_binary(*box((0, 0, 0), (1, 1, 9))))
+        shapes = {}
+        for axis in "xyz":
+            self.succeed("--voxel-size", 0.5, "--picture", "out.png", "--up", axis, mesh, "out.vti")
+            shapes[axis] = self.check_drawn("out.png")
+        self.assertGreater(shapes["z"][1], 2 * shapes["z"][0])  # the pole stands
+        self.assertLess(shapes["y"][1], 2 * shapes["y"][0])  # and lies
+
+    def test_bits_and_cells_look_the_same(self):
+        pictures = []
+        for options in [], ["--type", "bit"], ["--cells"], ["--value", "9"]:
+            self.succeed("--resolution", 8, "--picture", "out.png", *options, BUNNY, "out.vti")
+            pictures.append((self.folder / "out.png").read_bytes())
+        self.assertEqual(len(set(pictures)), 1)
+
+    def test_nothing_to_draw(self):
+        self.succeed("--bounds", "50,60,50,60,50,60", "--resolution", 8, "--picture", "out.png",
+                     BUNNY, "out.vti", warnings=["no voxel is set"])
+        self.assertEqual(set(self.pixels("out.png")[2]), {b"\xff\xff\xff"})
+
+
+class TestTerminal(ProgramTest):
+    def watch(self, *options):
+        """What a terminal in the place of the standard error is given."""
+        ours, theirs = pty.openpty()
+        try:
+            process = subprocess.Popen(
+                [PROGRAM, *options, BUNNY, "out.vti"], cwd=self.folder, stdout=subprocess.PIPE,
+                stderr=theirs)
+            os.close(theirs)
+            text = b""
+            while True:
+                try:
+                    chunk = os.read(ours, 4096)
+                except OSError:  # the other end was closed
+                    break
+                if not chunk:
+                    break
+                text += chunk
+            self.assertEqual(process.communicate(timeout=60)[0], b"")
+            self.assertEqual(process.returncode, 0)
+            return text.decode()
+        finally:
+            os.close(ours)
+
+    def test_progress_on_a_terminal(self):
+        text = self.watch("--resolution", "64")
+        for task in "reading", "voxelizing", "writing":
+            self.assertRegex(text, task + r" +\[[#.]{40}\] +\d+%")
+        self.assertTrue(text.endswith(" \r"), repr(text[-40:]))  # the bar is wiped out
+
+    def test_no_progress_when_quiet(self):
+        self.assertEqual(self.watch("--quiet"), "")
+
+
+class TestUsage(ProgramTest):
+    def test_help(self):
+        text = self.succeed("--help")
+        self.assertEqual(text, self.succeed("-h"))
+        for word in ("--resolution", "--reference", "Exit codes", "Examples", ".glb", ".mha", "128"):
+            self.assertIn(word, text)
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
+
+    def test_version(self):
+        self.assertRegex(self.succeed("--version"), r"^vtkvoxelize \d+\.\d+\.\d+ \(VTK 9\.[\d.]+\)\n$")
+
+    def test_files(self):
+        self.fail(USAGE, naming=["INPUT and OUTPUT are missing"])
+        self.fail(USAGE, "a.ply", naming=["OUTPUT is missing"])
+        self.fail(USAGE, "a.ply", "b.vti", "c.vti", naming=["'c.vti'"])
+        self.fail(USAGE, "a.ply", "", naming=["OUTPUT is missing"])
+        self.fail(USAGE, "a.vtk", "./a.vtk", naming=["INPUT", "OUTPUT", "same file"])
+        self.fail(USAGE, "--reference", "a.vti", "a.ply", "a.vti", naming=["--reference", "OUTPUT"])
+        self.fail(USAGE, "--picture", "a.vti", "a.ply", "a.vti", naming=["--picture", "OUTPUT"])
+
+    def test_unknown(self):
+        for word in "--colour", "-x", "--colour=3", "--resolutio":
+            with self.subTest(word):
+                self.fail(USAGE, word, "a.ply", "b.vti", naming=[word.split("=")[0], "--help"])
+
+    def test_values(self):
+        bad = {
+            "--resolution": ["", "x", "1.5", "0", "-8", "3x", "99999999999", "--quiet"],
+            "--dimensions": ["3", "3,3", "3,3,3,3", "3,3,", "3,,3", "0,3,3", "3,-3,3", "3,3,x"],
+            "--voxel-size": ["", "x", "0", "-1", "nan", "inf", "1mm"],
+            "--bounds": ["1,2,3", "0,1,0,1,0,x", "0,1,0,1,1,1", "1,0,0,1,0,1", "0,1,0,1,0,nan"],
+            "--padding": ["-1", "x", "0.5", "2147483647"],
+            "--reference": [""],
+            "--mode": ["inside", "", "Center"],
+            "--fill": ["even"],
+            "--axis": ["w"],
+            "--backend": ["cuda"],
+            "--type": ["float"],
+            "--value": ["0", "256", "-1", "x"],
+            "--picture": [""],
+            "--up": ["w"],
+        }
+        for option, values in bad.items():
+            for value in values:
+                with self.subTest(option=option, value=value):
+                    naming = [option, f"'{value}'"] if value else [option]
+                    self.fail(USAGE, option, value, "a.ply", "b.vti", naming=naming)
+            with self.subTest(option=option, value=None):
+                self.fail(USAGE, "a.ply", "b.vti", option, naming=[option, "value"])
+
+    def test_switch_with_a_value(self):
+        self.fail(USAGE, "--info=1", "a.ply", "b.vti", naming=["--info"])
+
+    def test_twice(self):
+        self.fail(USAGE, "--padding", 1, "--padding=1", "a.ply", "b.vti", naming=["--padding", "twice"])
+
+    def test_contradictions(self):
+        resolution, dimensions = ["--resolution", "8"], ["--dimensions", "8,8,8"]
+        size, bounds, padding = ["--voxel-size", "1"], ["--bounds", "0,1,0,1,0,1"], ["--padding", "1"]
+        reference, axis = ["--reference", "r.vti"], ["--axis", "x"]
+        fill, vote = ["--fill", "nonzero"], ["--fill", "vote"]
+        boundary, bit = ["--mode", "boundary"], ["--type", "bit"]
+        pairs = [(resolution, dimensions), (resolution, size), (dimensions, size), (reference, resolution),
+                 (reference, dimensions), (reference, size), (reference, bounds), (reference, padding),
+                 (boundary, fill), (boundary, axis), (vote, axis), (bit, ["--value", "2"])]
+        for one, other in pairs:
+            with self.subTest(one=one, other=other):
+                for words in one + other, other + one:
+                    self.fail(USAGE, *words, "a.ply", "b.vti", naming=[one[0], other[0]])
+        for option in bit, ["--cells"]:
+            for name in "b.mha", "b.MHD":
+                with self.subTest(option=option, name=name):
+                    self.fail(USAGE, *option, "a.ply", name, naming=[option[0], name])
+        self.fail(USAGE, "--up", "z", "a.ply", "b.vti", naming=["--up", "--picture"])
+
+
+class TestBadInput(ProgramTest):
+    def refuse(self, name, content, *naming):
+        with self.subTest(name):
+            self.file("out.vti", b"old")
+            self.file(name, content)
+            self.fail(INPUT, name, "out.vti", naming=[name, *naming])
+
+    def test_no_file(self):
+        self.fail(INPUT, "none.ply", "out.vti", naming=["none.ply", "No such file"])
+        (self.folder / "folder.ply").mkdir()
+        self.fail(INPUT, "folder.ply", "out.vti", naming=["folder.ply", "folder"])
+
+    def test_unknown_type(self):
+        self.refuse("mesh.dae", b"x", ".dae", ".stl", ".glb")
+        self.refuse("mesh", b"x", "no extension")
+
+    ALL = ("a.stl", "a.ply", "a.obj", "a.vtp", "a.vtk", "a.gltf", "a.glb")
+
+    def test_empty_files(self):
+        for name in self.ALL:
+            self.refuse(name, b"", "empty")
+
+    def test_garbage(self):
+        noise = bytes((i * 7919 + i * i * 31) % 256 for i in range(5000))
+        for name in self.ALL:
+            self.refuse("text" + name, b"This is no mesh at all, but prose.\n" * 40)
+            self.refuse("noise" + name, noise)
+
+    def contents(self):
+        """A file of every format, without spaces at its end."""
+        made = {"text.stl": stl_text(*box()), "binary.stl": stl_binary(*box()),
+                "text.ply": ply_text(*box()), "binary.ply": ply_binary(*box()),
+                "box.gltf": gltf(), "box.glb": glb()}
+        for name, writer in (("box.vtp", vtkXMLPolyDataWriter()), ("box.vtk", vtkPolyDataWriter())):
+            if name == "box.vtk":
+                writer.SetFileTypeToBinary()
+            written(writer, polydata(*box()), self.folder / name)
+            made[name] = (self.folder / name).read_bytes()
+            (self.folder / name).unlink()
+        return {name: content.rstrip() for name, content in made.items()}
+
+    def test_truncated(self):
+        for name, content in self.contents().items():
+            for part in 0.05, 0.3, 0.6, 0.9, 0.97:
+                with self.subTest(name=name, part=part):
+                    self.refuse(f"{part}-{name}", content[:int(part * len(content))])
+
+    def test_no_polygons(self):
+        points, _ = box()
+        self.refuse("points.ply", ply_text(points, []), "no polygons")
+        self.refuse("points.obj", obj(points, []), "no polygons")
+        self.refuse("empty.stl", stl_binary([], []), "no polygons")
+        self.refuse("empty_text.stl", b"solid x\nendsolid x\n", "no polygons")
+        for name, lines in ("empty.vtp", []), ("lines.vtp", [(0, 1, 2)]):
+            path = self.folder / ("made" + name)
+            written(vtkXMLPolyDataWriter(), polydata(points if lines else [], [], lines), path)
+            self.refuse(name, path.read_bytes(), "no polygons")
+
+    def test_points_that_are_no_numbers(self):
+        for name, value in ("nan", float("nan")), ("infinite", float("inf")):
+            points, triangles = box()
+            points[3] = (value, 0.0, 0.0)
+            self.refuse(name + ".ply", ply_binary(points, triangles), "NaN or infinite")
+            self.refuse(name + ".stl", stl_binary(points, triangles), "NaN or infinite")
+
+    def test_other_data(self):
+        image = vtkImageData()
+        image.SetDimensions(2, 2, 2)
+        image.AllocateScalars(3, 1)
+        written(vtkXMLImageDataWriter(), image, self.folder / "made.vti")
+        self.refuse("image.vtp", (self.folder / "made.vti").read_bytes())
+        written(vtkStructuredPointsWriter(), image, self.folder / "made.vtk")
+        self.refuse("image.vtk", (self.folder / "made.vtk").read_bytes())
+
+    def test_polygons_of_points_that_do_not_exist(self):
+        points, triangles = box()
+        triangles[5] = (0, 1, 800)
+        self.refuse("text.ply", ply_text(points, triangles), "800")
+        self.refuse("binary.ply", ply_binary(points, triangles), "800")
+        self.refuse("mesh.obj", obj(points, triangles), "801")
+        triangles[5] = (0, 1, -3)
+        self.refuse("negative.ply", ply_binary(points, triangles), "-3")
+        path = self.folder / "made.vtp"
+        written(vtkXMLPolyDataWriter(), polydata(points, [(0, 1, 800)]), path)
+        self.refuse("mesh.vtp", path.read_bytes())
+
+    def test_obj_of_texture_coordinates_that_do_not_exist(self):
+        points = "".join("v %g %g %g\n" % p for p in box()[0])
+        self.refuse("texture.obj", (points + "f 1/1/1 2/2/2 3/3/3\n").encode(), "texture coordinate 1")
+        self.refuse("normal.obj", (points + "f 1//1 2//2 3//3\n").encode(), "normal 1")
+        self.refuse("zero.obj", (points + "f 0 1 2\n").encode(), "point 0")
+        self.refuse("early.obj", b"f -1 -2 -3\n" + points.encode(), "point -1")
+        self.refuse("words.obj", (points + "f a b c\n").encode())
+
+    def test_ply_heads(self):
+        points, triangles = box()
+        good = ply_text(points, triangles).decode()
+        for old, new in (
+            ("format ascii 1.0", "format morse 1.0"),
+            ("element vertex 8", "element vertex -8"),
+            ("element vertex 8", "element vertex 4000000000"),
+            ("element face 12", "element face 13"),
+            ("property float z\n", ""),
+            ("property float z", "property list uchar int z"),
+            ("property float z", "property long z"),
+            ("property list uchar int vertex_indices\n", "property uchar red\n"),
+            ("element face 12", "element cat 12"),
+            ("end_header\n", ""),
+            ("ply\n", "plyx\n"),
+        ):
+            with self.subTest(new=new):
+                self.assertIn(old, good)
+                self.refuse("head.ply", good.replace(old, new, 1).encode())
+
+    def test_ply_lines(self):
+        good = ply_text(*box()).decode()
+        for old, new in (("1 2 3\n", "1 2\n"), ("1 2 3\n", "\n1 2 3\n"), ("1 2 3\n", "1 2 three\n"),
+                         ("\n3 0 1 3\n", "\n300 0 1 3\n"), ("\n3 0 1 3\n", "\n-3 0 1 3\n"),
+                         ("\n3 0 1 3\n", "\n3 0 1 3" + 5000 * " " + "\n")):
+            with self.subTest(new=new[:20]):
+                self.assertIn(old, good)
+                self.refuse("line.ply", good.replace(old, new, 1).encode())
+
+    def test_gltf_that_lies(self):
+        for change in (
+            lambda s: s["buffers"][0].update(byteLength=10**9),
+            lambda s: s["bufferViews"][1].update(byteLength=10**6),
+            lambda s: s["accessors"][0].update(count=10**6),
+            lambda s: s["accessors"][1].update(count=10**6),
+            lambda s: s["bufferViews"][0].update(buffer=7),
+            lambda s: s["nodes"][1].update(mesh=7),
+            lambda s: s["nodes"][0].update(children=[7]),
+            lambda s: s["meshes"][0]["primitives"][0]["attributes"].update(POSITION=7),
+            lambda s: s.pop("meshes"),
+            lambda s: s.update(asset={"version": "1.0"}),
+            lambda s: s["buffers"][0].update(uri="none.bin"),
+        ):
+            scene = json.loads(gltf())
+            change(scene)
+            self.refuse("lie.gltf", json.dumps(scene).encode())
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--program", required=True, type=os.path.abspath)
+    parser.add_argument("-D", dest="data", required=True, action="append", type=os.path.abspath)
+    parser.add_argument("-T", dest="scratch", type=os.path.abspath)
+    arguments, rest = parser.parse_known_args()
+    global PROGRAM, BUNNY, SCRATCH
+    PROGRAM = arguments.program
+    BUNNY = os.path.join(arguments.data[0], "bunny_7k.ply")
+    SCRATCH = arguments.scratch
+    if rest[:1] == ["-V"]:  # the baseline, which this test has none of
+        rest = rest[2:]
+    unittest.main(argv=[sys.argv[0], *rest])
+
+
+if __name__ == "__main__":
+    main()
