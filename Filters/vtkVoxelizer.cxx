@@ -138,6 +138,11 @@ vtkIdType vtkVoxelizer::GetNumberOfTriangles()
   return this->State->NumberOfTriangles;
 }
 
+int vtkVoxelizer::GetNumberOfMeshUploads()
+{
+  return this->State->Mesh.GetNumberOfUploads();
+}
+
 const char* vtkVoxelizer::GetRendererName()
 {
   this->State->RendererName = this->State->Context->GetRendererName();
@@ -400,17 +405,19 @@ int vtkVoxelizer::RequestData(
   this->UsedBackend = BACKEND_AUTO;
   try
   {
-    auto grid = this->GetCheckedGrid(input);
+    const auto grid = this->GetCheckedGrid(input);
     vtkVoxelGrid part = grid;
     if (outputInfo->Has(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()))
     {
-      outputInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), part.Extent.data());
-      if (this->OutputAttributeType == ATTRIBUTE_CELL)
+      // After a failure the pipeline still has the extent of then, which may exceed that of now.
+      const int* asked = outputInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT());
+      const int pointsMore = this->OutputAttributeType == ATTRIBUTE_CELL ? 1 : 0;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        for (const int upper : { 1, 3, 5 })
-        {
-          --part.Extent[upper];
-        }
+        int& low = part.Extent[2 * axis];
+        int& high = part.Extent[2 * axis + 1];
+        low = std::max(low, asked[2 * axis]);
+        high = std::min(high, asked[2 * axis + 1] - pointsMore);
       }
     }
     if (part.IsEmpty())

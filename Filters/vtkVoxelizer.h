@@ -236,6 +236,11 @@ public:
   vtkIdType GetNumberOfTriangles();
 
   /**
+   * How often this filter sent a mesh to the GPU; a change of the grid alone sends nothing.
+   */
+  int GetNumberOfMeshUploads();
+
+  /**
    * Name of the OpenGL renderer that the filter works on, such as "llvmpipe (LLVM 15.0.6, 256 bits)";
    * an empty string when there is none.
    */
