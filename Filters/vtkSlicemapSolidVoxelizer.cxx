@@ -110,18 +110,20 @@ bool vtkSlicemapSolidVoxelizer::FillByVote(
   {
     textures.push_back(vtkSlicemapTexture(leak));
   }
-  vote.Run(context, slicemap, [&](vtkVoxelGL::Program& program) {
-    const char* const names[] = { "AlongX", "AlongY", "AlongZ", "Caps", "LeaksX", "LeaksY",
-      "LeaksZ" };
-    for (int unit = 0; unit < int(textures.size()); ++unit)
+  vote.Run(context, slicemap,
+    [&](vtkVoxelGL::Program& program)
     {
-      textures[unit].Bind(unit);
-      program.Set(names[unit], unit);
-    }
-    const glm::ivec3 n = slicemap->GetGrid().GetDimensions();
-    program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
-    program.Set("WordsOfY", static_cast<unsigned int>(leaks[0]->GetWordsPerRow()));
-  });
+      const char* const names[] = { "AlongX", "AlongY", "AlongZ", "Caps", "LeaksX", "LeaksY",
+        "LeaksZ" };
+      for (int unit = 0; unit < int(textures.size()); ++unit)
+      {
+        textures[unit].Bind(unit);
+        program.Set(names[unit], unit);
+      }
+      const glm::ivec3 n = slicemap->GetGrid().GetDimensions();
+      program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
+      program.Set("WordsOfY", static_cast<unsigned int>(leaks[0]->GetWordsPerRow()));
+    });
   return true;
 }
 
@@ -171,12 +173,10 @@ bool vtkSlicemapSolidVoxelizer::Voxelize(
   {
     return true;
   }
-  const auto operation = this->Mode == MODE_UNDER_CONSERVATIVE
-    ? vtkSolidPass::TouchedVoxels::Clear
-    : vtkSolidPass::TouchedVoxels::Set;
-  return pass.Touch(mesh, slicemap, operation, [&](double done) {
-    return this->ReportProgress(shareOfSolid + (1.0 - shareOfSolid) * done);
-  });
+  const auto operation = this->Mode == MODE_UNDER_CONSERVATIVE ? vtkSolidPass::TouchedVoxels::Clear
+                                                               : vtkSolidPass::TouchedVoxels::Set;
+  return pass.Touch(mesh, slicemap, operation,
+    [&](double done) { return this->ReportProgress(shareOfSolid + (1.0 - shareOfSolid) * done); });
 }
 
 void vtkSlicemapSolidVoxelizer::WarnOfLeaks()
@@ -188,8 +188,8 @@ void vtkSlicemapSolidVoxelizer::WarnOfLeaks()
   const vtkVoxelMeshEdges edges(vtkVoxelMesh::GetLeaves(this->GetInputDataObject(0, 0)));
   vtkWarningMacro("The mesh is not closed: it has "
     << edges.GetNumberOfOpenEdges() << " open and " << edges.GetNumberOfNonManifoldEdges()
-    << " non-manifold edges, and "
-    << this->NumberOfLeakingColumns << " columns of voxels leak through. Close the mesh, for "
+    << " non-manifold edges, and " << this->NumberOfLeakingColumns
+    << " columns of voxels leak through. Close the mesh, for "
     << "instance by vtkFillHolesFilter, or set the fill rule to Vote.");
 }
 

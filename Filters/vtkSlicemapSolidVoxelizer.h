@@ -6,8 +6,8 @@
  *
  * A voxel is inside when a ray from its centre crosses the surface an odd number of times. The rays
  * run along the columns of the grid; a crossing flips all voxels behind it, and flips commute, so
- * that triangles may come in any order and any number of them may fall into one voxel. The method is
- * that of
+ * that triangles may come in any order and any number of them may fall into one voxel. The method
+ * is that of
  *
  * Elmar Eisemann, Xavier Decoret: Single-Pass GPU Solid Voxelization for Real-Time Applications.
  * Graphics Interface 2008, pp. 73-80; section 5.2 (solid), 5.3 (conservative).
@@ -15,25 +15,26 @@
  * The Raster backend is the paper's: a fragment looks up the bit mask of the voxels behind it in a
  * small table, and masks are combined by the logic operation XOR in integer render targets, up to
  * 1,024 slices in one pass with eight targets; tiles and further passes make larger grids. Vertices
- * are snapped to 1/256 voxel across the columns, as OpenGL's rasterization does. The Compute backend
- * flips one bit where a column crosses the surface and then runs a parity scan along the columns; its
- * arithmetic is double precision.
+ * are snapped to 1/256 voxel across the columns, as OpenGL's rasterization does. The Compute
+ * backend flips one bit where a column crosses the surface and then runs a parity scan along the
+ * columns; its arithmetic is double precision.
  *
- * <b>Ties.</b> With both backends a closed mesh never leaks, since all triangles at an edge evaluate
- * the edge identically. Compute treats a solid as half open along each axis: voxel centres that lie on
- * a face at the lower end of an axis are inside, those at the upper end outside, so that a box
- * [0, 4]^3 holds exactly the centres 0, 1, 2, 3 of each axis.
+ * <b>Ties.</b> With both backends a closed mesh never leaks, since all triangles at an edge
+ * evaluate the edge identically. Compute treats a solid as half open along each axis: voxel centres
+ * that lie on a face at the lower end of an axis are inside, those at the upper end outside, so
+ * that a box [0, 4]^3 holds exactly the centres 0, 1, 2, 3 of each axis.
  *
  * <b>Modes.</b> Center samples voxel centres. Boundary gives the voxels (closed boxes) that the
- * surface touches. OverConservative is Center or Boundary, UnderConservative Center without Boundary.
- * "Touches" errs on the safe side only: no touched voxel is ever missed, and none farther from the
- * surface than 1e-5 voxel with Compute, 1e-2 voxel with Raster, is added.
+ * surface touches. OverConservative is Center or Boundary, UnderConservative Center without
+ * Boundary. "Touches" errs on the safe side only: no touched voxel is ever missed, and none farther
+ * from the surface than 1e-5 voxel with Compute, 1e-2 voxel with Raster, is added.
  *
- * <b>Fill rules.</b> Parity is the paper's: where closed surfaces overlap, the symmetric difference.
- * NonZero uses the winding number, and gives the union of consistently oriented closed surfaces. Vote
- * is for dirty meshes, with holes or inner walls, where a single axis leaks whole columns: parity along
- * all three axes, columns that leak abstain, and the majority wins. Where it does not lead by two votes,
- * the mesh with caps on its holes decides, cones over the edges that have an odd number of polygons.
+ * <b>Fill rules.</b> Parity is the paper's: where closed surfaces overlap, the symmetric
+ * difference. NonZero uses the winding number, and gives the union of consistently oriented closed
+ * surfaces. Vote is for dirty meshes, with holes or inner walls, where a single axis leaks whole
+ * columns: parity along all three axes, columns that leak abstain, and the majority wins. Where it
+ * does not lead by two votes, the mesh with caps on its holes decides, cones over the edges that
+ * have an odd number of polygons.
  */
 
 #ifndef vtkSlicemapSolidVoxelizer_h
@@ -111,9 +112,9 @@ public:
   ///@}
 
   /**
-   * Columns of the last run in which crossings did not cancel: 0 for a closed mesh. Columns along the
-   * axis used; all three axes together with Vote. 0 with mode Boundary, which has no columns, and
-   * with CheckWatertight off.
+   * Columns of the last run in which crossings did not cancel: 0 for a closed mesh. Columns along
+   * the axis used; all three axes together with Vote. 0 with mode Boundary, which has no columns,
+   * and with CheckWatertight off.
    */
   vtkGetMacro(NumberOfLeakingColumns, vtkIdType);
 

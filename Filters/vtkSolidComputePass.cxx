@@ -77,7 +77,8 @@ int GetSlicesPerSlab(vtkSlicemap* slicemap)
   if (aligned == 0)
   {
     throw std::runtime_error("One slice of the grid with " + slicemap->GetGrid().Describe() +
-      " is too large for this OpenGL renderer. Use fewer voxels along x and y, or voxelize in parts.");
+      " is too large for this OpenGL renderer. Use fewer voxels along x and y, or voxelize in "
+      "parts.");
   }
   return static_cast<int>(aligned);
 }
@@ -115,8 +116,8 @@ void SetIndexFromWorld(
     const int row = order[i];
     const double first = aligned ? matrix[row][row] : matrix[0][row];
     const std::string name = "IndexFromWorld[" + std::to_string(i) + "]";
-    program.Set(name.c_str(),
-      std::array<double, 4>{ first, matrix[1][row], matrix[2][row], matrix[3][row] });
+    program.Set(
+      name.c_str(), std::array<double, 4>{ first, matrix[1][row], matrix[2][row], matrix[3][row] });
   }
 }
 
@@ -151,8 +152,8 @@ void Prepare(vtkVoxelGL::Buffer& buffer, const vtkVoxelGL::Context& context, std
     buffer = vtkVoxelGL::Buffer(context);
     if (!buffer.Allocate(static_cast<std::size_t>(bytes)))
     {
-      throw std::runtime_error("OpenGL has no memory left for " + std::to_string(bytes) +
-        " bytes. Use fewer voxels.");
+      throw std::runtime_error(
+        "OpenGL has no memory left for " + std::to_string(bytes) + " bytes. Use fewer voxels.");
     }
   }
 }
@@ -172,8 +173,8 @@ vtkSolidComputePass::vtkSolidComputePass(vtkVoxelGL::Context context)
 {
 }
 
-bool vtkSolidComputePass::FillSolid(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis,
-  Rule rule, const Progress& progress)
+bool vtkSolidComputePass::FillSolid(
+  const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Rule rule, const Progress& progress)
 {
   if (rule == Rule::Parity)
   {
@@ -222,8 +223,8 @@ bool vtkSolidComputePass::FillParity(
 }
 
 void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* target,
-  const char* name, const char* source, const Program::Defines& defines,
-  const vtkColumnAxes& axes, const Box& box)
+  const char* name, const char* source, const Program::Defines& defines, const vtkColumnAxes& axes,
+  const Box& box)
 {
   const vtkVoxelGrid& grid = target->GetGrid();
   Prepare(this->Queue, this->Context, sizeof(EmptyQueue) + QueueCapacity * 2 * WordBytes);
@@ -253,8 +254,8 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
     }
     Program& program = vtkVoxelGetProgram(this->Context, name, all,
       { { GL_COMPUTE_SHADER,
-        { vtkSlicemapLayoutGLSL, vtkVoxelMeshFetchGLSL, vtkVoxelTileQueueGLSL,
-          vtkTouchedColumnGLSL, source } } });
+        { vtkSlicemapLayoutGLSL, vtkVoxelMeshFetchGLSL, vtkVoxelTileQueueGLSL, vtkTouchedColumnGLSL,
+          source } } });
     program.Use();
     mesh.Bind(program, MeshUnit);
     SetIndexFromWorld(program, indexFromWorld, axes, !alignedAxes.empty());
@@ -351,8 +352,8 @@ bool vtkSolidComputePass::FillNonZero(
     program.Use();
     const std::int64_t start = v * wordsPerV * WordBytes;
     const std::int64_t aligned = start / alignment * alignment;
-    const std::int64_t end = axes.V == 2 ? start + rows * wordsPerV * WordBytes
-                                         : target->GetNumberOfWords() * WordBytes;
+    const std::int64_t end =
+      axes.V == 2 ? start + rows * wordsPerV * WordBytes : target->GetNumberOfWords() * WordBytes;
     target->GetBuffer().BindRange(GL_SHADER_STORAGE_BUFFER, 1, aligned, end - aligned);
     this->ColumnEnds->GetBuffer().BindBase(GL_SHADER_STORAGE_BUFFER, 2);
     program.Set("FirstRow", static_cast<unsigned int>(v));
@@ -368,8 +369,8 @@ bool vtkSolidComputePass::FillNonZero(
   return progress(1.0);
 }
 
-bool vtkSolidComputePass::Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target,
-  TouchedVoxels operation, const Progress& progress)
+bool vtkSolidComputePass::Touch(
+  const vtkVoxelMesh& mesh, vtkSlicemap* target, TouchedVoxels operation, const Progress& progress)
 {
   const vtkVoxelGrid& grid = target->GetGrid();
   const glm::ivec3 n = grid.GetDimensions();
@@ -389,8 +390,8 @@ bool vtkSolidComputePass::Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target,
     const Box box{ grid.GetFirst() + glm::ivec3(0, 0, slice),
       grid.GetFirst() + glm::ivec3(n.x, n.y, end) };
     BindSlab(target, 0, slice, end - slice);
-    this->RunTriangles(mesh, target, "vtkTouchedVoxels", vtkTouchedVoxelsGLSL, defines,
-      vtkColumnAxes(2), box);
+    this->RunTriangles(
+      mesh, target, "vtkTouchedVoxels", vtkTouchedVoxelsGLSL, defines, vtkColumnAxes(2), box);
   }
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   return progress(1.0);
@@ -399,8 +400,8 @@ bool vtkSolidComputePass::Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target,
 double vtkSolidComputePass::EstimateCost(
   const vtkVoxelGrid& grid, int axis, const glm::dvec3& projectedAreas) const
 {
-  // Columns along z step through memory slice by slice, those along y row by row; along x all bits of
-  // a word belong to one column.
+  // Columns along z step through memory slice by slice, those along y row by row; along x all bits
+  // of a word belong to one column.
   constexpr std::array<double, 3> scanOfWord{ 0.9, 0.7, 3.0 };
   constexpr double crossing = 25.0;
   return crossing * projectedAreas[axis] +

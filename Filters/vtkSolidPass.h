@@ -4,8 +4,9 @@
  * @file vtkSolidPass.h
  * Private header: the GPU passes behind vtkSlicemapSolidVoxelizer, one interface for both backends.
  *
- * All methods want the context of the slicemap to be current, take slicemaps that are allocated, and
- * throw std::runtime_error with a message for the user. They return false when they were stopped.
+ * All methods want the context of the slicemap to be current, take slicemaps that are allocated,
+ * and throw std::runtime_error with a message for the user. They return false when they were
+ * stopped.
  */
 
 #ifndef vtkSolidPass_h
@@ -72,8 +73,8 @@ public:
   virtual bool Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target, TouchedVoxels operation,
     const Progress& progress) = 0;
 
-  /// One bit for each column of the last FillSolid, set where its crossings don't cancel: the mesh is
-  /// open there. A slicemap of nu x nv x 1 voxels, which may be kept.
+  /// One bit for each column of the last FillSolid, set where its crossings don't cancel: the mesh
+  /// is open there. A slicemap of nu x nv x 1 voxels, which may be kept.
   vtkSmartPointer<vtkSlicemap> GetColumnEnds() const { return this->ColumnEnds; }
 
   /// What a column axis costs, in nanoseconds of a CPU that runs OpenGL in software; only compared.

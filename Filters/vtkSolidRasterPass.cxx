@@ -35,7 +35,8 @@ constexpr int WordBits = 32;
 // Eight targets of this size take 128 MiB.
 constexpr int LargestTile = 1024;
 
-// The anchor is a voxel at a multiple of this, so that parts of a grid see the same numbers as the whole.
+// The anchor is a voxel at a multiple of this, so that parts of a grid see the same numbers as the
+// whole.
 constexpr int AnchorStep = 4096;
 
 // Units of textures.
@@ -52,7 +53,6 @@ int PowerOfTwoFrom(int n)
   }
   return power;
 }
-
 
 int CeilDivide(int n, int divisor)
 {
@@ -82,13 +82,14 @@ vtkVoxelGL::Texture MakeMaskTable(const vtkVoxelGL::Context& context)
     }
   }
   vtkVoxelGL::Texture table(context, GL_TEXTURE_2D);
-  table.Allocate2D(GL_RGBA32UI, SlicesPerMaskTarget + 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-    masks.data());
+  table.Allocate2D(
+    GL_RGBA32UI, SlicesPerMaskTarget + 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, masks.data());
   return table;
 }
 }
 
-/// One pass: a rectangle of columns and a range of slices, counted from the first voxel of the grid.
+/// One pass: a rectangle of columns and a range of slices, counted from the first voxel of the
+/// grid.
 struct vtkSolidRasterPass::Tile
 {
   vtkColumnAxes Axes;
@@ -164,16 +165,16 @@ vtkSolidRasterPass::vtkSolidRasterPass(vtkVoxelGL::Context context)
 {
 }
 
-bool vtkSolidRasterPass::FillSolid(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis,
-  Rule rule, const Progress& progress)
+bool vtkSolidRasterPass::FillSolid(
+  const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Rule rule, const Progress& progress)
 {
   this->StartColumnEnds(target, vtkColumnAxes(axis));
   return this->Fill(
     mesh, target, axis, rule == Rule::Parity ? Content::Parity : Content::Winding, progress);
 }
 
-bool vtkSolidRasterPass::Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target,
-  TouchedVoxels operation, const Progress& progress)
+bool vtkSolidRasterPass::Touch(
+  const vtkVoxelMesh& mesh, vtkSlicemap* target, TouchedVoxels operation, const Progress& progress)
 {
   vtkNew<vtkSlicemap> touched;
   touched->SetContext(target->GetContext());
@@ -208,8 +209,7 @@ bool vtkSolidRasterPass::Fill(const vtkVoxelMesh& mesh, vtkSlicemap* target, int
   GLint largestTexture = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largestTexture);
   const int tile = std::min<int>(LargestTile, largestTexture);
-  const glm::ivec2 size(
-    PowerOfTwoFrom(std::min(n.x, tile)), PowerOfTwoFrom(std::min(n.y, tile)));
+  const glm::ivec2 size(PowerOfTwoFrom(std::min(n.x, tile)), PowerOfTwoFrom(std::min(n.y, tile)));
   Targets targets(this->Context, size, count, content);
 
   const int tilesU = CeilDivide(n.x, size.x);
@@ -276,16 +276,15 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   double largest = 0.0;
   for (int i = 0; i < 3; ++i)
   {
-    const glm::vec3 row(voxelsFromWorld[0][order[i]], voxelsFromWorld[1][order[i]],
-      voxelsFromWorld[2][order[i]]);
+    const glm::vec3 row(
+      voxelsFromWorld[0][order[i]], voxelsFromWorld[1][order[i]], voxelsFromWorld[2][order[i]]);
     const std::string name = "VoxelsFromWorld[" + std::to_string(i) + "]";
     program.Set(name.c_str(), std::array<float, 3>{ row.x, row.y, row.z });
     const glm::dvec3 reach = glm::dvec3(mesh.GetLargestCoordinate()) + glm::abs(world);
     largest = std::max(largest, glm::dot(glm::abs(glm::dvec3(row)), reach));
   }
   const glm::ivec3 offset = tile.Axes(grid.GetFirst() - anchor);
-  program.Set("TileFirst",
-    std::array<int, 2>{ offset.x + tile.First.x, offset.y + tile.First.y });
+  program.Set("TileFirst", std::array<int, 2>{ offset.x + tile.First.x, offset.y + tile.First.y });
   program.Set("TileColumns", std::array<int, 2>{ tile.Columns.x, tile.Columns.y });
   program.Set("TileSize", std::array<int, 2>{ targets.Size.x, targets.Size.y });
   program.Set("FirstSlice", offset.z + tile.FirstSlice);
@@ -330,7 +329,8 @@ void vtkSolidRasterPass::Resolve(
   {
     defines["WINDING"] = "1";
   }
-  const auto bind = [&](Program& program) {
+  const auto bind = [&](Program& program)
+  {
     targets.Layers.Bind(ColumnsUnit);
     program.Set("Columns", int(ColumnsUnit));
     program.Set("TileFirst", std::array<int, 2>{ tile.First.x, tile.First.y });
@@ -339,7 +339,8 @@ void vtkSolidRasterPass::Resolve(
     program.Set("EndSlice", depth);
   };
 
-  // The box of voxels of this pass, and then of words: all of the padding goes with the last voxels.
+  // The box of voxels of this pass, and then of words: all of the padding goes with the last
+  // voxels.
   glm::ivec3 first;
   glm::ivec3 end;
   first[tile.Axes.U] = tile.First.x;
@@ -363,8 +364,8 @@ void vtkSolidRasterPass::Resolve(
     defines["COLUMN_ENDS"] = "1";
     const int nu = n[tile.Axes.U];
     const int endColumn = tile.First.x + tile.Columns.x;
-    const int endWord = endColumn == nu ? static_cast<int>(this->ColumnEnds->GetWordsPerRow())
-                                        : endColumn / WordBits;
+    const int endWord =
+      endColumn == nu ? static_cast<int>(this->ColumnEnds->GetWordsPerRow()) : endColumn / WordBits;
     const vtkSlicemapKernel resolve("vtkSolidRasterResolve", vtkSolidRasterResolveGLSL, defines);
     resolve.Run(this->Context, this->ColumnEnds,
       { { tile.First.x / WordBits, tile.First.y, 0 },

@@ -4,9 +4,9 @@
  * @file vtkSolidRasterPass.h
  * Private header: solid voxelization by rasterization (OpenGL 3.2), as in Eisemann & Decoret 2008.
  *
- * The mesh is drawn along the columns into integer render targets, 128 slices each, as many targets at
- * once as the context has (eight at most), and combined by logic operations. Longer columns take more
- * passes, wider grids more tiles. Then the targets are turned to the words of the slicemap.
+ * The mesh is drawn along the columns into integer render targets, 128 slices each, as many targets
+ * at once as the context has (eight at most), and combined by logic operations. Longer columns take
+ * more passes, wider grids more tiles. Then the targets are turned to the words of the slicemap.
  */
 
 #ifndef vtkSolidRasterPass_h

@@ -55,8 +55,8 @@ vtkVoxelGL::Texture TextureOver(const vtkVoxelGL::Buffer& buffer, GLenum format)
 
 /// Triangles of cells with three points each, by whole arrays; false when there are others.
 template <typename IdArray>
-bool CopyTriangles(vtkCellArray* cells, std::uint32_t firstPoint, vtkIdType numberOfPoints,
-  std::uint32_t* out)
+bool CopyTriangles(
+  vtkCellArray* cells, std::uint32_t firstPoint, vtkIdType numberOfPoints, std::uint32_t* out)
 {
   auto* connectivity = IdArray::FastDownCast(cells->GetConnectivityArray());
   auto* offsets = IdArray::FastDownCast(cells->GetOffsetsArray());
@@ -68,29 +68,32 @@ bool CopyTriangles(vtkCellArray* cells, std::uint32_t firstPoint, vtkIdType numb
   const auto* starts = offsets->GetPointer(0);
   std::atomic<bool> onlyTriangles{ true };
   std::atomic<bool> valid{ true };
-  vtkSMPTools::For(0, cells->GetNumberOfCells(), [&](vtkIdType begin, vtkIdType end) {
-    using Id = typename IdArray::ValueType;
-    Id misplaced = 0;
-    for (vtkIdType cell = begin; cell <= end; ++cell)
+  vtkSMPTools::For(0, cells->GetNumberOfCells(),
+    [&](vtkIdType begin, vtkIdType end)
     {
-      misplaced |= starts[cell] ^ static_cast<Id>(3 * cell);
-    }
-    if (misplaced)
-    {
-      onlyTriangles = false;
-      return;
-    }
-    bool inside = true;
-    for (vtkIdType i = 3 * begin; i < 3 * end; ++i)
-    {
-      inside = inside & (static_cast<std::uint64_t>(ids[i]) < static_cast<std::uint64_t>(numberOfPoints));
-      out[i] = static_cast<std::uint32_t>(ids[i]) + firstPoint;
-    }
-    if (!inside)
-    {
-      valid = false;
-    }
-  });
+      using Id = typename IdArray::ValueType;
+      Id misplaced = 0;
+      for (vtkIdType cell = begin; cell <= end; ++cell)
+      {
+        misplaced |= starts[cell] ^ static_cast<Id>(3 * cell);
+      }
+      if (misplaced)
+      {
+        onlyTriangles = false;
+        return;
+      }
+      bool inside = true;
+      for (vtkIdType i = 3 * begin; i < 3 * end; ++i)
+      {
+        inside = inside &
+          (static_cast<std::uint64_t>(ids[i]) < static_cast<std::uint64_t>(numberOfPoints));
+        out[i] = static_cast<std::uint32_t>(ids[i]) + firstPoint;
+      }
+      if (!inside)
+      {
+        valid = false;
+      }
+    });
   if (!valid)
   {
     throw std::runtime_error("A polygon of the input refers to a point that does not exist. Check "
@@ -135,15 +138,14 @@ void VisitTriangles(vtkCellArray* cells, bool strips, vtkIdType numberOfPoints, 
   }
 }
 
+bool MayBeTriangles(vtkCellArray* cells)
+{
+  return cells->GetNumberOfConnectivityIds() == 3 * cells->GetNumberOfCells();
+}
+
+/// A cell of n points makes n - 2 triangles; those of less than three make none.
 vtkIdType CountTriangles(vtkCellArray* cells)
 {
-  // A cell of n points makes n - 2 triangles; those of less than three make none.
-  const vtkIdType cellsOfThree = cells->GetNumberOfCells();
-  const vtkIdType ids = cells->GetNumberOfConnectivityIds();
-  if (ids == 3 * cellsOfThree && cells->IsHomogeneous() == 3)
-  {
-    return cellsOfThree;
-  }
   vtkIdType count = 0;
   for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
   {
@@ -156,7 +158,8 @@ vtkIdType CountTriangles(vtkCellArray* cells)
 Leaves vtkVoxelMesh::GetLeaves(vtkDataObject* input)
 {
   Leaves leaves;
-  const auto add = [&leaves](vtkDataObject* object) {
+  const auto add = [&leaves](vtkDataObject* object)
+  {
     auto* mesh = vtkPolyData::SafeDownCast(object);
     if (mesh && mesh->GetPoints())
     {
@@ -202,8 +205,7 @@ void vtkVoxelMesh::Update(
     identities.push_back({ leaf->GetPoints()->GetData(), polygons, strips,
       std::max({ leaf->GetPoints()->GetMTime(), leaf->GetPoints()->GetData()->GetMTime(),
         polygons->GetMTime(), strips->GetMTime() }) });
-    onlyTriangles = onlyTriangles &&
-      polygons->GetNumberOfConnectivityIds() == 3 * polygons->GetNumberOfCells();
+    onlyTriangles = onlyTriangles && MayBeTriangles(polygons);
   }
   const bool present = this->Context == context && this->Points && this->Triangles &&
     this->Uploaded == identities && (this->UploadedAs == triangulation || onlyTriangles);
@@ -227,7 +229,7 @@ void vtkVoxelMesh::Update(
     }
   }
   this->UploadPoints(leaves);
-  this->UploadTriangles(leaves);
+  this->UploadTriangles(leaves, true);
   this->SampleAreas(leaves);
   ++this->NumberOfUploads;
   this->Uploaded = identities;
@@ -257,8 +259,8 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
   std::atomic<bool> lowUsed{ false };
   double largest = 0.0;
   {
-    const vtkVoxelGL::MappedBuffer mapped(this->Points, 0, this->Points.GetSize(),
-      GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    const vtkVoxelGL::MappedBuffer mapped(
+      this->Points, 0, this->Points.GetSize(), GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     auto* high = static_cast<float*>(mapped.Get());
     if (!high)
     {
@@ -270,7 +272,8 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
       vtkDataArray* points = leaf->GetPoints()->GetData();
       const vtkIdType n = points->GetNumberOfTuples();
       std::atomic<float> largestOfLeaf{ 0.0f };
-      const auto note = [&](float sum, float most) {
+      const auto note = [&](float sum, float most)
+      {
         // A sum of products with zero is zero unless something is not finite.
         if (sum != 0.0f)
         {
@@ -284,45 +287,49 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
       if (auto* floats = vtkFloatArray::FastDownCast(points))
       {
         const float* in = floats->GetPointer(0);
-        vtkSMPTools::For(0, 3 * n, [&](vtkIdType begin, vtkIdType end) {
-          std::memcpy(high + 3 * first + begin, in + begin, (end - begin) * sizeof(float));
-          float sum = 0.0f;
-          float most = 0.0f;
-          for (vtkIdType i = begin; i < end; ++i)
+        vtkSMPTools::For(0, 3 * n,
+          [&](vtkIdType begin, vtkIdType end)
           {
-            sum += in[i] * 0.0f;
-            most = std::max(most, std::abs(in[i]));
-          }
-          note(sum, most);
-        });
+            std::memcpy(high + 3 * first + begin, in + begin, (end - begin) * sizeof(float));
+            float sum = 0.0f;
+            float most = 0.0f;
+            for (vtkIdType i = begin; i < end; ++i)
+            {
+              sum += in[i] * 0.0f;
+              most = std::max(most, std::abs(in[i]));
+            }
+            note(sum, most);
+          });
       }
       else
       {
-        vtkSMPTools::For(0, n, [&](vtkIdType begin, vtkIdType end) {
-          float sum = 0.0f;
-          float most = 0.0f;
-          bool used = false;
-          double p[3];
-          for (vtkIdType i = begin; i < end; ++i)
+        vtkSMPTools::For(0, n,
+          [&](vtkIdType begin, vtkIdType end)
           {
-            points->GetTuple(i, p);
-            for (int axis = 0; axis < 3; ++axis)
+            float sum = 0.0f;
+            float most = 0.0f;
+            bool used = false;
+            double p[3];
+            for (vtkIdType i = begin; i < end; ++i)
             {
-              const auto rounded = static_cast<float>(p[axis]);
-              const auto rest = static_cast<float>(p[axis] - rounded);
-              high[3 * (first + i) + axis] = rounded;
-              low[3 * (first + i) + axis] = rest;
-              sum += rounded * 0.0f;
-              most = std::max(most, std::abs(rounded));
-              used = used || rest != 0.0f;
+              points->GetTuple(i, p);
+              for (int axis = 0; axis < 3; ++axis)
+              {
+                const auto rounded = static_cast<float>(p[axis]);
+                const auto rest = static_cast<float>(p[axis] - rounded);
+                high[3 * (first + i) + axis] = rounded;
+                low[3 * (first + i) + axis] = rest;
+                sum += rounded * 0.0f;
+                most = std::max(most, std::abs(rounded));
+                used = used || rest != 0.0f;
+              }
             }
-          }
-          note(sum, most);
-          if (used)
-          {
-            lowUsed = true;
-          }
-        });
+            note(sum, most);
+            if (used)
+            {
+              lowUsed = true;
+            }
+          });
       }
       largest = std::max<double>(largest, largestOfLeaf);
       first += n;
@@ -346,12 +353,15 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
   this->LargestCoordinate = largest;
 }
 
-void vtkVoxelMesh::UploadTriangles(const Leaves& leaves)
+void vtkVoxelMesh::UploadTriangles(const Leaves& leaves, bool expectTriangles)
 {
   std::size_t total = 0;
   for (const auto& leaf : leaves)
   {
-    total += CountTriangles(leaf->GetPolys()) + CountTriangles(leaf->GetStrips());
+    vtkCellArray* polygons = leaf->GetPolys();
+    total += expectTriangles && MayBeTriangles(polygons) ? polygons->GetNumberOfCells()
+                                                         : CountTriangles(polygons);
+    total += CountTriangles(leaf->GetStrips());
   }
   if (total == 0)
   {
@@ -367,6 +377,7 @@ void vtkVoxelMesh::UploadTriangles(const Leaves& leaves)
       ". Voxelize the mesh in parts and combine the results by exclusive or.");
   }
   Reserve(this->Context, this->Triangles, total);
+  bool onlyTriangles = true;
   {
     const vtkVoxelGL::MappedBuffer mapped(this->Triangles, 0, this->Triangles.GetSize(),
       GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
@@ -379,18 +390,22 @@ void vtkVoxelMesh::UploadTriangles(const Leaves& leaves)
     for (const auto& leaf : leaves)
     {
       const vtkIdType points = leaf->GetNumberOfPoints();
-      const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c) {
+      const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c)
+      {
         for (const vtkIdType id : { a, b, c })
         {
           *out++ = static_cast<std::uint32_t>(id) + firstPoint;
         }
       };
       vtkCellArray* polygons = leaf->GetPolys();
-      const bool likely = polygons->GetNumberOfConnectivityIds() == 3 * polygons->GetNumberOfCells();
-      if (likely &&
-        (CopyTriangles<vtkTypeInt64Array>(polygons, firstPoint, points, out) ||
-          CopyTriangles<vtkTypeInt32Array>(polygons, firstPoint, points, out)))
+      if (expectTriangles && MayBeTriangles(polygons))
       {
+        if (!CopyTriangles<vtkTypeInt64Array>(polygons, firstPoint, points, out) &&
+          !CopyTriangles<vtkTypeInt32Array>(polygons, firstPoint, points, out))
+        {
+          onlyTriangles = false;
+          break;
+        }
         out += 3 * polygons->GetNumberOfCells();
       }
       else
@@ -400,6 +415,12 @@ void vtkVoxelMesh::UploadTriangles(const Leaves& leaves)
       VisitTriangles(leaf->GetStrips(), true, points, add);
       firstPoint += static_cast<std::uint32_t>(points);
     }
+  }
+  if (!onlyTriangles)
+  {
+    // Three points a cell on average, but not in each.
+    this->UploadTriangles(leaves, false);
+    return;
   }
   this->TrianglesTexture = TextureOver(this->Triangles, GL_RGB32UI);
   this->NumberOfTriangles = static_cast<std::uint32_t>(total);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file vtkVoxelMesh.h
- * Private header: the triangles of an input on the GPU, uploaded once for as long as the input stays as
- * it is.
+ * Private header: the triangles of an input on the GPU, uploaded once for as long as the input
+ * stays as it is.
  *
  * Points go up as they are when they are floats. Doubles and other types go up as two floats, the
  * rounded value and what the rounding took away, which together hold 48 bits.
@@ -43,7 +43,8 @@ public:
   /// Puts the triangles of `input` on the GPU, unless they are there already; the context must be
   /// current. Throws std::runtime_error with a message for the user when the input can't be
   /// voxelized.
-  void Update(const vtkVoxelGL::Context& context, vtkDataObject* input, Triangulation triangulation);
+  void Update(
+    const vtkVoxelGL::Context& context, vtkDataObject* input, Triangulation triangulation);
 
   std::uint32_t GetNumberOfTriangles() const { return this->NumberOfTriangles; }
   bool HasLowPart() const { return this->LowPoints; }
@@ -71,13 +72,14 @@ private:
     std::uint64_t Time;
     bool operator==(const Identity& o) const
     {
-      return this->Points == o.Points && this->Polygons == o.Polygons &&
-        this->Strips == o.Strips && this->Time == o.Time;
+      return this->Points == o.Points && this->Polygons == o.Polygons && this->Strips == o.Strips &&
+        this->Time == o.Time;
     }
   };
 
   void UploadPoints(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
-  void UploadTriangles(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
+  void UploadTriangles(
+    const std::vector<vtkSmartPointer<vtkPolyData>>& leaves, bool expectTriangles);
   void SampleAreas(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
 
   vtkVoxelGL::Context Context;

@@ -14,7 +14,8 @@
 
 #include <vector>
 
-/// The edges of all polygons of some meshes. Points at the same place are one point, as in an STL file.
+/// The edges of all polygons of some meshes. Points at the same place are one point, as in an STL
+/// file.
 class vtkVoxelMeshEdges
 {
 public:

@@ -187,10 +187,10 @@ vtkVoxelGrid vtkVoxelizer::GridFromBox(const double box[6]) const
   const double longest = std::max({ length.x, length.y, length.z });
   if (!(longest > 0.0) || !std::isfinite(longest) || !std::isfinite(glm::length(low)))
   {
-    throw InvalidGrid("The box to voxelize has no size: its bounds are (" +
-      std::to_string(box[0]) + ", " + std::to_string(box[1]) + ", " + std::to_string(box[2]) +
-      ", " + std::to_string(box[3]) + ", " + std::to_string(box[4]) + ", " +
-      std::to_string(box[5]) + "). Set ModelBounds or OutputWholeExtent.");
+    throw InvalidGrid("The box to voxelize has no size: its bounds are (" + std::to_string(box[0]) +
+      ", " + std::to_string(box[1]) + ", " + std::to_string(box[2]) + ", " +
+      std::to_string(box[3]) + ", " + std::to_string(box[4]) + ", " + std::to_string(box[5]) +
+      "). Set ModelBounds or OutputWholeExtent.");
   }
 
   vtkVoxelGrid grid;
@@ -268,8 +268,8 @@ vtkVoxelGrid vtkVoxelizer::GetWholeGrid(vtkDataObject* input) const
     this->OutputWholeExtent[4] != 0 || this->OutputWholeExtent[5] != -1;
   if (extentIsSet)
   {
-    grid.Spacing = glm::dvec3(
-      this->OutputSpacing[0], this->OutputSpacing[1], this->OutputSpacing[2]);
+    grid.Spacing =
+      glm::dvec3(this->OutputSpacing[0], this->OutputSpacing[1], this->OutputSpacing[2]);
     grid.Origin = glm::dvec3(this->OutputOrigin[0], this->OutputOrigin[1], this->OutputOrigin[2]);
     for (int i = 0; i < 9; ++i)
     {
@@ -306,8 +306,7 @@ vtkVoxelGrid vtkVoxelizer::GetCheckedGrid(vtkDataObject* input) const
   }
   if (!(std::abs(glm::determinant(grid.Direction)) > 1e-6))
   {
-    throw InvalidGrid(
-      "The direction matrix of the output is singular: " + grid.Describe() + ".");
+    throw InvalidGrid("The direction matrix of the output is singular: " + grid.Describe() + ".");
   }
   return grid;
 }
@@ -395,8 +394,7 @@ void vtkVoxelizer::CheckMemory(const vtkVoxelGrid& grid) const
 int vtkVoxelizer::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkDataObject* input =
-    inputs[0]->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT());
+  vtkDataObject* input = inputs[0]->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT());
   vtkInformation* outputInfo = outputs->GetInformationObject(0);
   auto* output = vtkImageData::GetData(outputInfo);
   output->Initialize();
@@ -489,16 +487,14 @@ void vtkVoxelizer::FillOutput(vtkImageData* output, vtkSlicemap* slicemap)
       throw std::runtime_error("There is no memory for the " +
         std::to_string(grid.GetNumberOfVoxels()) + " voxels of the output. Use fewer voxels.");
     }
-    const bool read = slicemap->Read([&](const std::uint32_t* words) {
-      vtkSlicemapImage::Expand(words, grid, this->ForegroundValue, array);
-    });
+    const bool read = slicemap->Read([&](const std::uint32_t* words)
+      { vtkSlicemapImage::Expand(words, grid, this->ForegroundValue, array); });
     if (!read)
     {
       throw std::runtime_error("The result could not be read back from OpenGL.");
     }
-    vtkDataSetAttributes* attributes = cells
-      ? static_cast<vtkDataSetAttributes*>(output->GetCellData())
-      : output->GetPointData();
+    vtkDataSetAttributes* attributes =
+      cells ? static_cast<vtkDataSetAttributes*>(output->GetCellData()) : output->GetPointData();
     attributes->SetScalars(array);
   }
   slicemap->AttachTo(output);
@@ -515,7 +511,8 @@ bool vtkVoxelizer::ReportProgress(double fraction)
 void vtkVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto print = [&](const char* name, const auto* values, int count) {
+  const auto print = [&](const char* name, const auto* values, int count)
+  {
     os << indent << name << ":";
     for (int i = 0; i < count; ++i)
     {
@@ -537,8 +534,9 @@ void vtkVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ForegroundValue: " << this->ForegroundValue << "\n";
   os << indent << "OutputScalarType: " << vtkImageScalarTypeNameMacro(this->OutputScalarType)
      << "\n";
-  os << indent << "OutputAttributeType: "
-     << (this->OutputAttributeType == ATTRIBUTE_CELL ? "Cell" : "Point") << "\n";
+  os << indent
+     << "OutputAttributeType: " << (this->OutputAttributeType == ATTRIBUTE_CELL ? "Cell" : "Point")
+     << "\n";
   os << indent << "HostOutput: " << this->HostOutput << "\n";
   const char* const backends[] = { "Auto", "Raster", "Compute" };
   os << indent << "Backend: " << backends[this->Backend] << "\n";

@@ -4,9 +4,9 @@
  * @class vtkVoxelizer
  * @brief abstract base of the filters that turn geometry into voxels on the GPU
  *
- * The input is a vtkPolyData with triangles, triangle strips and polygons, or a composite dataset of
- * them, all leaves of which go into one grid. Vertices and lines among the cells are ignored. The
- * output is a vtkImageData.
+ * The input is a vtkPolyData with triangles, triangle strips and polygons, or a composite dataset
+ * of them, all leaves of which go into one grid. Vertices and lines among the cells are ignored.
+ * The output is a vtkImageData.
  *
  * <b>Grid.</b> A voxel is the box of size Spacing centred at an image point; it is solid when that
  * point is inside. The first that is set wins:
@@ -21,12 +21,12 @@
  * <b>Output.</b> Point scalars named "Occupancy": unsigned char, ForegroundValue inside and 0
  * outside, or VTK_BIT (OutputScalarType). With OutputAttributeType Cell the voxels are the cells of
  * the image instead, at the same place in space. The image carries its vtkSlicemap, so that filters
- * of this module behind it work on the GPU without a transfer; with HostOutput off it carries nothing
- * else. Sub-extents requested by UPDATE_EXTENT equal the same part of the whole.
+ * of this module behind it work on the GPU without a transfer; with HostOutput off it carries
+ * nothing else. Sub-extents requested by UPDATE_EXTENT equal the same part of the whole.
  *
- * <b>Errors.</b> One error that says what is wrong and what to do, and an empty output: no input, no
- * polygons, NaN or infinite points, an empty or negative grid, a result larger than MemoryLimit, no
- * OpenGL context.
+ * <b>Errors.</b> One error that says what is wrong and what to do, and an empty output: no input,
+ * no polygons, NaN or infinite points, an empty or negative grid, a result larger than MemoryLimit,
+ * no OpenGL context.
  *
  * Progress is reported and abort honoured between tiles.
  *
@@ -96,8 +96,8 @@ public:
 
   ///@{
   /**
-   * The box to voxelize, (xmin, xmax, ymin, ymax, zmin, zmax) in world units. Default: (0, -1, 0, -1,
-   * 0, -1), which stands for the bounds of the input.
+   * The box to voxelize, (xmin, xmax, ymin, ymax, zmin, zmax) in world units. Default: (0, -1, 0,
+   * -1, 0, -1), which stands for the bounds of the input.
    */
   vtkSetVector6Macro(ModelBounds, double);
   vtkGetVector6Macro(ModelBounds, double);
@@ -105,8 +105,8 @@ public:
 
   ///@{
   /**
-   * Whether SampleDimensions gives cubes (default): the coarsest of the three spacings is used on all
-   * axes and the box is enlarged evenly. When off each axis has its own spacing.
+   * Whether SampleDimensions gives cubes (default): the coarsest of the three spacings is used on
+   * all axes and the box is enlarged evenly. When off each axis has its own spacing.
    */
   vtkSetMacro(CubicVoxels, bool);
   vtkGetMacro(CubicVoxels, bool);
@@ -133,8 +133,8 @@ public:
   ///@{
   /**
    * Index extent of the whole output; with OutputSpacing, OutputOrigin (of index 0, 0, 0) and
-   * OutputDirection (3x3, row major) it fixes the grid. Default: (0, -1, 0, -1, 0, -1), which is off;
-   * spacing 1, origin 0, identity.
+   * OutputDirection (3x3, row major) it fixes the grid. Default: (0, -1, 0, -1, 0, -1), which is
+   * off; spacing 1, origin 0, identity.
    */
   vtkSetVector6Macro(OutputWholeExtent, int);
   vtkGetVector6Macro(OutputWholeExtent, int);
@@ -198,8 +198,8 @@ public:
 
   ///@{
   /**
-   * The window in whose OpenGL context to work. Default: none, which takes the headless context that
-   * the process shares (see vtkVoxelContext).
+   * The window in whose OpenGL context to work. Default: none, which takes the headless context
+   * that the process shares (see vtkVoxelContext).
    */
   virtual void SetRenderWindow(vtkRenderWindow* window);
   vtkRenderWindow* GetRenderWindow();
@@ -207,9 +207,9 @@ public:
 
   ///@{
   /**
-   * When on (default), a mesh that let columns leak is examined, and a warning names the number of its
-   * open and of its non-manifold edges. Leaks are found at no cost while voxelizing, so closed meshes
-   * pay nothing.
+   * When on (default), a mesh that let columns leak is examined, and a warning names the number of
+   * its open and of its non-manifold edges. Leaks are found at no cost while voxelizing, so closed
+   * meshes pay nothing.
    */
   vtkSetMacro(CheckWatertight, bool);
   vtkGetMacro(CheckWatertight, bool);
@@ -226,7 +226,8 @@ public:
   ///@}
 
   /**
-   * Number of voxels set by the last run; counted on the GPU when first asked for. -1 before any run.
+   * Number of voxels set by the last run; counted on the GPU when first asked for. -1 before any
+   * run.
    */
   vtkIdType GetNumberOfFilledVoxels();
 
@@ -241,8 +242,8 @@ public:
   int GetNumberOfMeshUploads();
 
   /**
-   * Name of the OpenGL renderer that the filter works on, such as "llvmpipe (LLVM 15.0.6, 256 bits)";
-   * an empty string when there is none.
+   * Name of the OpenGL renderer that the filter works on, such as "llvmpipe (LLVM 15.0.6, 256
+   * bits)"; an empty string when there is none.
    */
   const char* GetRendererName();
 
@@ -258,20 +259,20 @@ protected:
   ~vtkVoxelizer() override;
 
   /**
-   * Fills `slicemap`, which is not yet allocated, with the voxels of `mesh` on `grid`, in the current
-   * context. Returns false after having reported an error, or when aborted.
+   * Fills `slicemap`, which is not yet allocated, with the voxels of `mesh` on `grid`, in the
+   * current context. Returns false after having reported an error, or when aborted.
    */
   virtual bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) = 0;
 
   /**
-   * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into fans,
-   * which keep parity and winding also for concave polygons, and are cheaper.
+   * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into
+   * fans, which keep parity and winding also for concave polygons, and are cheaper.
    */
   virtual bool NeedsExactTriangulation() { return false; }
 
   /**
-   * Backend to run: Backend, with Auto resolved for the current context. Reports an error and returns
-   * BACKEND_AUTO when the context can't do what was asked for.
+   * Backend to run: Backend, with Auto resolved for the current context. Reports an error and
+   * returns BACKEND_AUTO when the context can't do what was asked for.
    */
   int ResolveBackend();
 

@@ -216,16 +216,16 @@ bool vtkSlicemap::Read(const std::function<void(const std::uint32_t* words)>& co
   vtkVoxelContext::Scope scope(this->GetContext());
   if (!scope || !this->Storage->Buffer)
   {
-    vtkErrorMacro("There are no bits to read"
-      << (scope ? "." : ": " + this->GetContext()->GetErrorMessage()));
+    vtkErrorMacro(
+      "There are no bits to read" << (scope ? "." : ": " + this->GetContext()->GetErrorMessage()));
     return false;
   }
   const vtkVoxelGL::MappedBuffer mapped(
     this->Storage->Buffer, 0, this->Storage->Buffer.GetSize(), GL_MAP_READ_BIT);
   if (!mapped.Get())
   {
-    vtkErrorMacro("OpenGL could not map the bits of the grid with "
-      << this->Storage->Grid.Describe() << ".");
+    vtkErrorMacro(
+      "OpenGL could not map the bits of the grid with " << this->Storage->Grid.Describe() << ".");
     return false;
   }
   ++ReadBacks;
@@ -273,9 +273,8 @@ bool vtkSlicemap::Download(vtkImageData* image, int scalarType, int foregroundVa
                                                 << this->GetGrid().Describe() << ".");
     return false;
   }
-  const bool read = this->Read([&](const std::uint32_t* words) {
-    vtkSlicemapImage::Expand(words, this->GetGrid(), foregroundValue, array);
-  });
+  const bool read = this->Read([&](const std::uint32_t* words)
+    { vtkSlicemapImage::Expand(words, this->GetGrid(), foregroundValue, array); });
   if (read)
   {
     this->GetGrid().ApplyTo(image);
@@ -296,9 +295,8 @@ vtkIdType vtkSlicemap::GetNumberOfFilledVoxels()
   if (!context->SupportsCompute())
   {
     vtkIdType count = 0;
-    this->Read([&](const std::uint32_t* words) {
-      count = vtkSlicemapImage::Count(words, this->GetNumberOfWords());
-    });
+    this->Read([&](const std::uint32_t* words)
+      { count = vtkSlicemapImage::Count(words, this->GetNumberOfWords()); });
     return count;
   }
   try
@@ -332,10 +330,9 @@ bool vtkSlicemap::RunOperation(int operation, vtkSlicemap* other, const int offs
 {
   if (other && !this->GetGrid().IsSameAs(other->GetGrid()))
   {
-    vtkErrorMacro("The two slicemaps are on different grids: " << this->GetGrid().Describe()
-                                                               << " here, "
-                                                               << other->GetGrid().Describe()
-                                                               << " there. Voxelize both on one.");
+    vtkErrorMacro("The two slicemaps are on different grids: "
+      << this->GetGrid().Describe() << " here, " << other->GetGrid().Describe()
+      << " there. Voxelize both on one.");
     return false;
   }
   vtkVoxelContext::Scope scope(this->GetContext());
@@ -364,14 +361,16 @@ bool vtkSlicemap::RunOperation(int operation, vtkSlicemap* other, const int offs
     const auto a = vtkSlicemapTexture(this);
     const auto b = vtkSlicemapTexture(other ? other : this);
     const glm::ivec3 n = this->GetGrid().GetDimensions();
-    kernel.Run(context, result, [&](vtkVoxelGL::Program& program) {
-      a.Bind(0);
-      b.Bind(1);
-      program.Set("A", 0);
-      program.Set("B", 1);
-      program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
-      program.Set("Offset", std::array<int, 3>{ offset[0], offset[1], offset[2] });
-    });
+    kernel.Run(context, result,
+      [&](vtkVoxelGL::Program& program)
+      {
+        a.Bind(0);
+        b.Bind(1);
+        program.Set("A", 0);
+        program.Set("B", 1);
+        program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
+        program.Set("Offset", std::array<int, 3>{ offset[0], offset[1], offset[2] });
+      });
   }
   catch (const std::runtime_error& error)
   {

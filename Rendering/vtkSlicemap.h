@@ -4,9 +4,9 @@
  * @class vtkSlicemap
  * @brief a binary voxel grid that lives on the GPU, one bit a voxel
  *
- * A slicemap stores a solid (or any other set of voxels) as bits in one OpenGL buffer, together with
- * the grid that the bits belong to. The voxelizers make slicemaps, the filters behind them work on
- * the bits, and nothing is read back until somebody asks for it.
+ * A slicemap stores a solid (or any other set of voxels) as bits in one OpenGL buffer, together
+ * with the grid that the bits belong to. The voxelizers make slicemaps, the filters behind them
+ * work on the bits, and nothing is read back until somebody asks for it.
  *
  * Layout of the buffer: bit `x % 32` (least significant first) of the 32-bit word
  * `((z * ny) + y) * WordsPerRow + x / 32` is voxel (x, y, z), counted from the first voxel of the
@@ -91,11 +91,10 @@ public:
 
   /**
    * Reads the bits back: gives `image` this geometry and point scalars named "Occupancy" of type
-   * VTK_UNSIGNED_CHAR, `foregroundValue` where the bit is set and 0 elsewhere, or VTK_BIT. The image
-   * carries the slicemap afterwards. False after one error when there is no memory.
+   * VTK_UNSIGNED_CHAR, `foregroundValue` where the bit is set and 0 elsewhere, or VTK_BIT. The
+   * image carries the slicemap afterwards. False after one error when there is no memory.
    */
-  bool Download(
-    vtkImageData* image, int scalarType = VTK_UNSIGNED_CHAR, int foregroundValue = 1);
+  bool Download(vtkImageData* image, int scalarType = VTK_UNSIGNED_CHAR, int foregroundValue = 1);
 
   /**
    * Number of voxels that are set; counted on the GPU, four bytes are read back. -1 on failure.
@@ -104,8 +103,8 @@ public:
 
   ///@{
   /**
-   * Boolean operations in place with a slicemap on the same grid and context. False, after one error
-   * that names both grids, when these differ.
+   * Boolean operations in place with a slicemap on the same grid and context. False, after one
+   * error that names both grids, when these differ.
    */
   bool Union(vtkSlicemap* other);
   bool Intersection(vtkSlicemap* other);
@@ -121,8 +120,8 @@ public:
 
   ///@{
   /**
-   * The slicemap that `image` carries, or null when it carries none or when its scalars were modified
-   * after it was attached; and its counterpart.
+   * The slicemap that `image` carries, or null when it carries none or when its scalars were
+   * modified after it was attached; and its counterpart.
    */
   static vtkSlicemap* GetFromImage(vtkImageData* image);
   void AttachTo(vtkImageData* image);

@@ -147,8 +147,8 @@ vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
   return array;
 }
 
-void Expand(const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue,
-  vtkDataArray* array)
+void Expand(
+  const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, vtkDataArray* array)
 {
   const glm::ivec3 n = grid.GetDimensions();
   const std::int64_t rows = std::int64_t(n.y) * n.z;
@@ -157,34 +157,40 @@ void Expand(const std::uint32_t* words, const vtkVoxelGrid& grid, int foreground
   {
     // Eight rows end at a whole byte.
     unsigned char* out = bits->GetPointer(0);
-    vtkSMPTools::For(0, (rows + 7) / 8, [&](vtkIdType begin, vtkIdType end) {
-      const std::int64_t first = std::int64_t(begin) * 8;
-      ExpandRowsToBits(words + first * wordsPerRow, wordsPerRow,
-        std::min<std::int64_t>(std::int64_t(end) * 8, rows) - first, n.x, out + first * n.x / 8);
-    });
+    vtkSMPTools::For(0, (rows + 7) / 8,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        const std::int64_t first = std::int64_t(begin) * 8;
+        ExpandRowsToBits(words + first * wordsPerRow, wordsPerRow,
+          std::min<std::int64_t>(std::int64_t(end) * 8, rows) - first, n.x, out + first * n.x / 8);
+      });
     return;
   }
   const ByteTable table = MakeValueTable(foregroundValue);
   unsigned char* out = static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0);
-  vtkSMPTools::For(0, rows, [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType row = begin; row < end; ++row)
+  vtkSMPTools::For(0, rows,
+    [&](vtkIdType begin, vtkIdType end)
     {
-      ExpandRow(words + row * wordsPerRow, n.x, table, out + std::int64_t(row) * n.x);
-    }
-  });
+      for (vtkIdType row = begin; row < end; ++row)
+      {
+        ExpandRow(words + row * wordsPerRow, n.x, table, out + std::int64_t(row) * n.x);
+      }
+    });
 }
 
 std::int64_t Count(const std::uint32_t* words, std::int64_t numberOfWords)
 {
   std::atomic<std::int64_t> total{ 0 };
-  vtkSMPTools::For(0, numberOfWords, [&](vtkIdType begin, vtkIdType end) {
-    std::int64_t count = 0;
-    for (vtkIdType i = begin; i < end; ++i)
+  vtkSMPTools::For(0, numberOfWords,
+    [&](vtkIdType begin, vtkIdType end)
     {
-      count += static_cast<std::int64_t>(std::bitset<WordBits>(words[i]).count());
-    }
-    total += count;
-  });
+      std::int64_t count = 0;
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        count += static_cast<std::int64_t>(std::bitset<WordBits>(words[i]).count());
+      }
+      total += count;
+    });
   return total;
 }
 
@@ -195,19 +201,21 @@ void Pack(vtkDataArray* array, const vtkVoxelGrid& grid, std::uint32_t* words)
   const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
   auto* bytes = vtkUnsignedCharArray::SafeDownCast(array);
   const bool plainBytes = bytes && bytes->GetNumberOfComponents() == 1;
-  vtkSMPTools::For(0, rows, [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType row = begin; row < end; ++row)
+  vtkSMPTools::For(0, rows,
+    [&](vtkIdType begin, vtkIdType end)
     {
-      std::uint32_t* out = words + row * wordsPerRow;
-      std::fill_n(out, wordsPerRow, 0u);
-      const std::int64_t first = std::int64_t(row) * n.x;
-      for (int x = 0; x < n.x; ++x)
+      for (vtkIdType row = begin; row < end; ++row)
       {
-        const bool set = plainBytes ? *bytes->GetPointer(first + x) != 0
-                                    : array->GetComponent(first + x, 0) != 0.0;
-        out[x / WordBits] |= std::uint32_t(set) << x % WordBits;
+        std::uint32_t* out = words + row * wordsPerRow;
+        std::fill_n(out, wordsPerRow, 0u);
+        const std::int64_t first = std::int64_t(row) * n.x;
+        for (int x = 0; x < n.x; ++x)
+        {
+          const bool set = plainBytes ? *bytes->GetPointer(first + x) != 0
+                                      : array->GetComponent(first + x, 0) != 0.0;
+          out[x / WordBits] |= std::uint32_t(set) << x % WordBits;
+        }
       }
-    }
-  });
+    });
 }
 }

@@ -27,8 +27,8 @@ vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
 /**
  * Bits to an array made by NewArray.
  */
-void Expand(const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue,
-  vtkDataArray* array);
+void Expand(
+  const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, vtkDataArray* array);
 
 /**
  * Number of set bits.

@@ -45,11 +45,11 @@ Program& vtkVoxelGetProgram(const Context& context, const std::string& name,
   if (!cached)
   {
     const bool compute = stages.front().Type == GL_COMPUTE_SHADER;
-    const std::string header = !compute        ? "#version 150 core\n"
-      : context->GetVersion() >= 43 ? "#version 430 core\n"
-                                    : "#version 420 core\n"
-                                      "#extension GL_ARB_compute_shader : require\n"
-                                      "#extension GL_ARB_shader_storage_buffer_object : require\n";
+    const std::string header = !compute ? "#version 150 core\n"
+      : context->GetVersion() >= 43     ? "#version 430 core\n"
+                                        : "#version 420 core\n"
+                                          "#extension GL_ARB_compute_shader : require\n"
+                                          "#extension GL_ARB_shader_storage_buffer_object : require\n";
     std::string log;
     Program program = Program::Build(context, header, defines, stages, log);
     if (!program)
@@ -145,12 +145,11 @@ void vtkSlicemapKernel::RunFragment(
   const glm::ivec3 size = region.End - region.First;
   const std::int64_t wordsPerRow = target->GetWordsPerRow();
   const std::int64_t rowsPerSlice = target->GetGrid().GetDimensions().y;
-  const int slicesAtOnce = static_cast<int>(
-    std::clamp<std::int64_t>(GetLimit(GL_MAX_TEXTURE_SIZE) / size.y, 1, size.z));
+  const int slicesAtOnce =
+    static_cast<int>(std::clamp<std::int64_t>(GetLimit(GL_MAX_TEXTURE_SIZE) / size.y, 1, size.z));
 
   vtkVoxelGL::Texture texture(context, GL_TEXTURE_2D);
-  if (!texture.Allocate2D(
-        GL_R32UI, size.x, size.y * slicesAtOnce, GL_RED_INTEGER, GL_UNSIGNED_INT))
+  if (!texture.Allocate2D(GL_R32UI, size.x, size.y * slicesAtOnce, GL_RED_INTEGER, GL_UNSIGNED_INT))
   {
     throw std::runtime_error("OpenGL has no memory left for a render target.");
   }

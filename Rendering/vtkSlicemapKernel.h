@@ -6,8 +6,9 @@
  *
  * A kernel is a GLSL function `uint kernel(uvec3 word)`, where word is (x / 32, y, z). It may read
  * slicemaps on the same grid by `uint sourceWord(usamplerBuffer source, uvec3 word)`, and the bit
- * layout is that of vtkSlicemapLayout.glsl. Written once, it runs as a compute shader where the context
- * has them, else as a fragment shader whose result is copied from the render target on the GPU.
+ * layout is that of vtkSlicemapLayout.glsl. Written once, it runs as a compute shader where the
+ * context has them, else as a fragment shader whose result is copied from the render target on the
+ * GPU.
  */
 
 #ifndef vtkSlicemapKernel_h
@@ -24,8 +25,8 @@ class vtkSlicemap;
 
 /// A compiled program from the cache of the context; compiled and cached when it is not there yet.
 /// Throws std::runtime_error with the compiler's log.
-vtkVoxelGL::Program& vtkVoxelGetProgram(const vtkVoxelGL::Context& context,
-  const std::string& name, const vtkVoxelGL::Program::Defines& defines,
+vtkVoxelGL::Program& vtkVoxelGetProgram(const vtkVoxelGL::Context& context, const std::string& name,
+  const vtkVoxelGL::Program::Defines& defines,
   const std::vector<vtkVoxelGL::Program::Stage>& stages);
 
 /// Runs a compute program for at least so many invocations; `local` is its workgroup's size.
@@ -38,8 +39,7 @@ vtkVoxelGL::Texture vtkSlicemapTexture(vtkSlicemap* slicemap);
 class vtkSlicemapKernel
 {
 public:
-  vtkSlicemapKernel(std::string name, std::string source,
-    vtkVoxelGL::Program::Defines defines = {})
+  vtkSlicemapKernel(std::string name, std::string source, vtkVoxelGL::Program::Defines defines = {})
     : Name(std::move(name))
     , Source(std::move(source))
     , Defines(std::move(defines))
@@ -63,10 +63,10 @@ public:
     const Bind& bind) const;
 
 private:
-  void RunCompute(const vtkVoxelGL::Context&, vtkSlicemap* target, const Region&,
-    const Bind& bind) const;
-  void RunFragment(const vtkVoxelGL::Context&, vtkSlicemap* target, const Region&,
-    const Bind& bind) const;
+  void RunCompute(
+    const vtkVoxelGL::Context&, vtkSlicemap* target, const Region&, const Bind& bind) const;
+  void RunFragment(
+    const vtkVoxelGL::Context&, vtkSlicemap* target, const Region&, const Bind& bind) const;
 
   std::string Name;
   std::string Source;

@@ -71,8 +71,8 @@ void SetCapability(GLenum name, bool enabled)
 namespace
 {
 /**
- * The name, or none when what it named was deleted meanwhile: in scopes within scopes the inner one may
- * delete what the outer one bound.
+ * The name, or none when what it named was deleted meanwhile: in scopes within scopes the inner one
+ * may delete what the outer one bound.
  */
 template <typename Test>
 GLuint IfAlive(GLint name, Test isAlive)

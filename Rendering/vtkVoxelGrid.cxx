@@ -26,8 +26,7 @@ vtkVoxelGrid vtkVoxelGrid::FromImage(vtkImageData* image)
 
 void vtkVoxelGrid::ApplyTo(vtkImageData* image) const
 {
-  image->SetExtent(
-    Extent[0], Extent[1], Extent[2], Extent[3], Extent[4], Extent[5]);
+  image->SetExtent(Extent[0], Extent[1], Extent[2], Extent[3], Extent[4], Extent[5]);
   image->SetSpacing(this->Spacing.x, this->Spacing.y, this->Spacing.z);
   image->SetOrigin(this->Origin.x, this->Origin.y, this->Origin.z);
   const auto rows = this->GetDirectionRows();
@@ -111,9 +110,8 @@ bool vtkVoxelGrid::IsSameAs(const vtkVoxelGrid& other) const
 {
   constexpr double tolerance = 1e-9;
   const double scale = glm::length(this->Spacing);
-  const auto near = [](const auto& a, const auto& b, double allowed) {
-    return glm::length(a - b) <= allowed;
-  };
+  const auto near = [](const auto& a, const auto& b, double allowed)
+  { return glm::length(a - b) <= allowed; };
   bool same = this->Extent == other.Extent &&
     near(this->Spacing, other.Spacing, tolerance * scale) &&
     near(this->Origin, other.Origin, tolerance * (scale + glm::length(this->Origin)));
@@ -132,9 +130,8 @@ std::string vtkVoxelGrid::Describe() const
   {
     text << ", " << this->Extent[i];
   }
-  const auto write = [&text](const char* name, const glm::dvec3& v) {
-    text << ", " << name << " (" << v.x << ", " << v.y << ", " << v.z << ")";
-  };
+  const auto write = [&text](const char* name, const glm::dvec3& v)
+  { text << ", " << name << " (" << v.x << ", " << v.y << ", " << v.z << ")"; };
   text << ")";
   write("spacing", this->Spacing);
   write("origin", this->Origin);

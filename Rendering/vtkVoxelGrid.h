@@ -14,8 +14,8 @@
 
 #include "vtkVoxelizationModule.h" // for export macro
 
-#include <array>    // for extents
-#include <cstdint>  // for 64-bit sizes
+#include <array>   // for extents
+#include <cstdint> // for 64-bit sizes
 #include <glm/glm.hpp>
 #include <string> // for Describe
 

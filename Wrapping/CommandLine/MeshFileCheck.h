@@ -4,7 +4,8 @@
  * @file MeshFileCheck.h
  * Looks for damage that VTK's readers would not notice, or not survive.
  *
- * All functions throw Failure with ExitCode::Input, and take files that can be opened.
+ * All functions throw Failure with ExitCode::Input, and take files that can be opened. For glTF see
+ * GltfFileCheck.h.
  */
 
 #ifndef MeshFileCheck_h
@@ -22,9 +23,6 @@ void CheckPLY(const std::string& file);
 
 /// Faces refer to points, normals and texture coordinates that the file has.
 void CheckOBJ(const std::string& file);
-
-/// The file is as long as its header says.
-void CheckGLB(const std::string& file);
 }
 
 #endif

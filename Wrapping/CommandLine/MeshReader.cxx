@@ -4,6 +4,7 @@
 
 #include "Failure.h"
 #include "FileNames.h"
+#include "GltfFileCheck.h"
 #include "InputFile.h"
 #include "MeshFileCheck.h"
 #include "Messages.h"
@@ -25,6 +26,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <vector>
 
 namespace
@@ -46,22 +49,43 @@ vtkSmartPointer<vtkAlgorithm> MakeSTLReader(const std::string& file)
   return reader;
 }
 
+vtkSmartPointer<vtkAlgorithm> MakePLYReader(const std::string& file)
+{
+  auto reader = vtkSmartPointer<vtkPLYReader>::New();
+  reader->SetFileName(file.c_str());
+  if (!MeshFileCheck::EndsWithLineEnd(file))
+  {
+    // Of a text, VTK does not read a last line that has no end.
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf() << "\n";
+    reader->SetInputString(text.str());
+    reader->ReadFromInputStringOn();
+  }
+  return reader;
+}
+
 struct Format
 {
   const char* Extension;
   vtkSmartPointer<vtkAlgorithm> (*MakeReader)(const std::string& file);
-  /// Finds what the reader would not survive or not notice.
-  void (*Check)(const std::string& file);
+  /// Finds what the reader, who gets the second name, would not survive or not notice.
+  void (*Check)(const std::string& file, const std::string& name);
 };
 
+template <void (*CheckFile)(const std::string&)>
+void Check(const std::string& file, const std::string&)
+{
+  CheckFile(file);
+}
+
 constexpr Format Formats[] = {
-  { ".stl", MakeSTLReader, MeshFileCheck::CheckSTL },
-  { ".ply", MakeReader<vtkPLYReader>, MeshFileCheck::CheckPLY },
-  { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ },
+  { ".stl", MakeSTLReader, Check<MeshFileCheck::CheckSTL> },
+  { ".ply", MakePLYReader, Check<MeshFileCheck::CheckPLY> },
+  { ".obj", MakeReader<vtkOBJReader>, Check<MeshFileCheck::CheckOBJ> },
   { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr },
   { ".vtk", MakeReader<vtkPolyDataReader>, nullptr },
-  { ".gltf", MakeReader<vtkGLTFReader>, nullptr },
-  { ".glb", MakeReader<vtkGLTFReader>, MeshFileCheck::CheckGLB },
+  { ".gltf", MakeReader<vtkGLTFReader>, GltfFileCheck::Check },
+  { ".glb", MakeReader<vtkGLTFReader>, GltfFileCheck::Check },
 };
 
 const Format& FindFormat(const std::string& file)
@@ -188,11 +212,11 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
 {
   InputFile::CheckReadable(file);
   const Format& format = FindFormat(file);
+  const LowerCaseName name(file, format.Extension);
   if (format.Check)
   {
-    format.Check(file);
+    format.Check(file, name.Get());
   }
-  const LowerCaseName name(file, format.Extension);
   const auto reader = format.MakeReader(name.Get());
   terminal.Watch(reader, "reading");
   reader->Update();
@@ -201,6 +225,12 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   if (!errors.empty())
   {
     InputFile::Refuse(file, errors.front());
+  }
+  // The reader of legacy files only warns where the file ends too early.
+  const auto warnings = messages.TakeWarnings();
+  if (!warnings.empty() && format.Extension == std::string(".vtk"))
+  {
+    InputFile::Refuse(file, warnings.front());
   }
   vtkSmartPointer<vtkDataObject> data = reader->GetOutputDataObject(0);
   CheckMesh(file, data);

@@ -217,7 +217,7 @@ const std::vector<Group>& GetGroups()
           "what is inside where surfaces overlap or have holes:\n"
           "parity    an odd number of crossings on the way there (default)\n"
           "nonzero   a winding number other than zero: the union of closed surfaces\n"
-          "vote      parity along all three axes, the majority wins: for dirty meshes, with holes",
+          "vote      parity along all three axes, the majority wins: for dirty meshes",
           [](Options& o, const Argument& a)
           {
             o.FillRule = a.AsChoice({ { "parity", Voxelizer::FILL_RULE_PARITY },

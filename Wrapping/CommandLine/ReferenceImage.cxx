@@ -137,6 +137,12 @@ vtkSmartPointer<vtkImageData> ReferenceImage::Read(const std::string& file, Mess
     InputFile::Refuse(file, "a reference image is one of " + ReferenceImage::GetExtensions());
   }
 
+  // VTK's reader takes any text for a header.
+  const bool isMeta = extension == ".mha" || extension == ".mhd";
+  if (isMeta && ReadNumbers(file, "NDims", "ElementDataFile").empty())
+  {
+    InputFile::Refuse(file, "it has no header of a MetaImage");
+  }
   const auto reader = format->MakeReader(file);
   reader->UpdateInformation();
   vtkInformation* information = reader->GetOutputInformation(0);
@@ -145,8 +151,9 @@ vtkSmartPointer<vtkImageData> ReferenceImage::Read(const std::string& file, Mess
   {
     information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
   }
-  const std::string reason = messages.TakeReason();
-  if (extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5])
+  const auto errors = messages.TakeErrors();
+  const std::string reason = errors.empty() ? messages.TakeReason() : errors.front();
+  if (!errors.empty() || extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5])
   {
     InputFile::Refuse(file, reason.empty() ? "there is no image in it" : reason);
   }

@@ -1,0 +1,265 @@
+// Times vtkSlicemapSolidVoxelizer beside a scanline on the CPU (the tests' reference) and
+// vtkPolyDataToImageStencil. Arguments of a row: voxels along the longest side of the mesh.
+//
+//   Update/MESH     polydata in memory to image of unsigned char in memory, upload of the mesh
+//   included Bits/MESH       the same, the result staying on the GPU as bits Pass/MESH       bits
+//   again, the mesh on the GPU already: a change of the grid alone Scanline/MESH
+//   VoxelReference::CrossingParityReference, two threads, unsigned char Stencil/MESH
+//   vtkPolyDataToImageStencil and vtkImageStencilToImage, unsigned char Scan, Clear, Copy   the
+//   parity scan over a grid of n^3 with clearing its bits, clearing alone, and
+//                       copying the same bits
+//
+// Meshes are those of the large data, if the build knows where they are, else the bundled one.
+
+#include "VoxelReference.h"
+#include "VoxelTestMeshes.h"
+
+#include <vtkCellArray.h>
+#include <vtkImageData.h>
+#include <vtkImageStencilToImage.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataToImageStencil.h>
+#include <vtkSlicemap.h>
+#include <vtkSlicemapSolidVoxelizer.h>
+#include <vtkVoxelContext.h>
+#include <vtkVoxelContextScope.h>
+#include <vtkVoxelGLObjects.h>
+
+#include <benchmark/benchmark.h>
+
+#include <map>
+#include <string>
+
+using VoxelTestMeshes::Mesh;
+
+namespace
+{
+Mesh Read(const char* file)
+{
+  char name[] = "BenchmarkSolid";
+  char option[] = "-D";
+  char small[] = VTKVOXELIZATION_DATA_DIR;
+  char large[] = VTKVOXELIZATION_LARGE_DATA_DIR;
+  char* arguments[] = { name, option, small, option, large };
+  return VoxelTestMeshes::ReadPLY(file, 5, arguments);
+}
+
+const std::map<std::string, Mesh>& GetMeshes()
+{
+  static const std::map<std::string, Mesh> meshes = []
+  {
+    std::map<std::string, Mesh> all;
+    const Mesh bunny = Read("bunny.ply");
+    const Mesh dragon = Read("dragon.ply");
+    if (bunny && dragon)
+    {
+      all["bunny"] = bunny;
+      all["dragon"] = dragon;
+      all["dragon_1.6M"] = VoxelTestMeshes::Subdivided(dragon, 2);
+    }
+    else
+    {
+      all["bunny_7k"] = Read("bunny_7k.ply");
+    }
+    all["box"] = VoxelTestMeshes::Rotated(VoxelTestMeshes::Box({ 0, 0, 0 }, { 1, 1, 1 }));
+    all["knot_1M"] = VoxelTestMeshes::TorusKnot(1.0, 250, 2000);
+    return all;
+  }();
+  return meshes;
+}
+
+vtkSmartPointer<vtkSlicemapSolidVoxelizer> MakeVoxelizer(const Mesh& mesh, int resolution)
+{
+  auto voxelizer = vtkSmartPointer<vtkSlicemapSolidVoxelizer>::New();
+  voxelizer->SetInputData(mesh);
+  voxelizer->SetResolution(resolution);
+  return voxelizer;
+}
+
+void Touch(const Mesh& mesh)
+{
+  mesh->GetPoints()->Modified();
+  mesh->GetPolys()->Modified();
+  mesh->Modified();
+}
+
+/// Waits for the GPU.
+void Finish()
+{
+  vtkNew<vtkVoxelContext> context;
+  vtkVoxelContext::Scope scope(context);
+  glFinish();
+}
+
+void Update(benchmark::State& state, const Mesh& mesh)
+{
+  const auto voxelizer = MakeVoxelizer(mesh, static_cast<int>(state.range(0)));
+  voxelizer->Update();
+  for (auto _ : state)
+  {
+    Touch(mesh);
+    voxelizer->Update();
+  }
+}
+
+void Bits(benchmark::State& state, const Mesh& mesh)
+{
+  const auto voxelizer = MakeVoxelizer(mesh, static_cast<int>(state.range(0)));
+  voxelizer->HostOutputOff();
+  voxelizer->Update();
+  for (auto _ : state)
+  {
+    Touch(mesh);
+    voxelizer->Update();
+    Finish();
+  }
+}
+
+void Pass(benchmark::State& state, const Mesh& mesh)
+{
+  const auto voxelizer = MakeVoxelizer(mesh, static_cast<int>(state.range(0)));
+  voxelizer->HostOutputOff();
+  voxelizer->Update();
+  for (auto _ : state)
+  {
+    voxelizer->Modified();
+    voxelizer->Update();
+    Finish();
+  }
+}
+
+vtkSmartPointer<vtkImageData> MakeGrid(const Mesh& mesh, int resolution)
+{
+  const auto voxelizer = MakeVoxelizer(mesh, resolution);
+  voxelizer->HostOutputOff();
+  voxelizer->Update();
+  auto grid = vtkSmartPointer<vtkImageData>::New();
+  grid->CopyStructure(voxelizer->GetOutput());
+  return grid;
+}
+
+void Scanline(benchmark::State& state, const Mesh& mesh)
+{
+  const auto grid =
+    VoxelReference::Grid::FromImage(MakeGrid(mesh, static_cast<int>(state.range(0))));
+  for (auto _ : state)
+  {
+    benchmark::DoNotOptimize(VoxelReference::CrossingParityReference(mesh, grid));
+  }
+}
+
+void Stencil(benchmark::State& state, const Mesh& mesh)
+{
+  const auto grid = MakeGrid(mesh, static_cast<int>(state.range(0)));
+  vtkNew<vtkPolyDataToImageStencil> stencil;
+  stencil->SetInputData(mesh);
+  stencil->SetOutputOrigin(grid->GetOrigin());
+  stencil->SetOutputSpacing(grid->GetSpacing());
+  stencil->SetOutputWholeExtent(grid->GetExtent());
+  vtkNew<vtkImageStencilToImage> image;
+  image->SetInputConnection(stencil->GetOutputPort());
+  image->SetOutputScalarTypeToUnsignedChar();
+  for (auto _ : state)
+  {
+    Touch(mesh);
+    image->Update();
+  }
+}
+
+void Scan(benchmark::State& state)
+{
+  // A mesh too small to matter: what remains is to clear the bits and to scan them.
+  const auto n = static_cast<int>(state.range(0));
+  const auto voxelizer = MakeVoxelizer(VoxelTestMeshes::Box({ 1, 1, 1 }, { 2, 2, 2 }), 1);
+  voxelizer->SetOutputWholeExtent(0, n - 1, 0, n - 1, 0, n - 1);
+  voxelizer->HostOutputOff();
+  voxelizer->CheckWatertightOff();
+  voxelizer->Update();
+  for (auto _ : state)
+  {
+    voxelizer->Modified();
+    voxelizer->Update();
+    Finish();
+  }
+}
+
+/// Two buffers of n^3 bits, and work on them.
+template <typename Work>
+void OnBuffers(benchmark::State& state, Work&& work)
+{
+  const auto bytes = static_cast<std::size_t>(state.range(0) * state.range(0) * state.range(0) / 8);
+  vtkNew<vtkVoxelContext> context;
+  vtkVoxelContext::Scope scope(context);
+  vtkVoxelGL::Buffer from(context->GetRecord());
+  vtkVoxelGL::Buffer to(context->GetRecord());
+  if (!from.Allocate(bytes) || !to.Allocate(bytes))
+  {
+    state.SkipWithError("no memory");
+    return;
+  }
+  from.Fill(0);
+  to.Fill(0);
+  glFinish();
+  for (auto _ : state)
+  {
+    work(from, to, bytes);
+    glFinish();
+  }
+}
+
+void Clear(benchmark::State& state)
+{
+  OnBuffers(state, [](auto& from, auto&, std::size_t) { from.Fill(0); });
+}
+
+void Copy(benchmark::State& state)
+{
+  OnBuffers(state, [](auto& from, auto& to, std::size_t bytes) { from.CopyTo(to, 0, 0, bytes); });
+}
+
+void Register()
+{
+  constexpr int repetitions = 5;
+  const auto add = [&](const std::string& name, auto function, std::initializer_list<int> sizes)
+  {
+    for (const int size : sizes)
+    {
+      benchmark::RegisterBenchmark(name.c_str(), function)
+        ->Arg(size)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Iterations(size < 512 ? 5 : 2)
+        ->Repetitions(repetitions)
+        ->ReportAggregatesOnly(false);
+    }
+  };
+  for (const auto& [name, shape] : GetMeshes())
+  {
+    const Mesh mesh = shape;
+    const auto on = [mesh](auto function)
+    { return [mesh, function](benchmark::State& state) { function(state, mesh); }; };
+    add("Update/" + name, on(Update), { 64, 128, 256, 512, 1024 });
+    add("Bits/" + name, on(Bits), { 64, 128, 256, 512, 1024 });
+    add("Pass/" + name, on(Pass), { 64, 128, 256, 512, 1024 });
+    add("Scanline/" + name, on(Scanline), { 64, 128, 256, 512, 1024 });
+    if (mesh->GetNumberOfPolys() < 500000)
+    {
+      add("Stencil/" + name, on(Stencil), { 64, 128, 256 });
+    }
+  }
+  add("Scan", Scan, { 256, 512, 1024 });
+  add("Clear", Clear, { 256, 512, 1024 });
+  add("Copy", Copy, { 256, 512, 1024 });
+}
+}
+
+int main(int argc, char* argv[])
+{
+  Register();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
