@@ -26,14 +26,13 @@ struct Buffer
 };
 
 /**
- * Buffers from the JSON text that VTK keeps of them. It has the keys of an object in the order of the
- * alphabet, so that each buffer begins with its byteLength.
+ * Buffers from the JSON text that VTK keeps of them. It has the keys of an object in the order of
+ * the alphabet, so that each buffer begins with its byteLength.
  */
 std::vector<Buffer> ParseBuffers(const std::string& json)
 {
-  const auto valueAfter = [&](std::size_t key) {
-    return json.find_first_not_of(" \t\r\n", json.find(':', key) + 1);
-  };
+  const auto valueAfter = [&](std::size_t key)
+  { return json.find_first_not_of(" \t\r\n", json.find(':', key) + 1); };
   const std::string lengthKey = "\"byteLength\"";
   const std::string uriKey = "\"uri\"";
   std::vector<Buffer> buffers;

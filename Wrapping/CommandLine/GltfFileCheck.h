@@ -13,9 +13,9 @@
 namespace GltfFileCheck
 {
 /**
- * Everything that something in a .gltf or .glb file refers to by index is there, its buffers hold all
- * that is taken from them, and its nodes form trees. Throws Failure with ExitCode::Input otherwise.
- * `name` is the name by which VTK reads the file, whose own name is for messages.
+ * Everything that something in a .gltf or .glb file refers to by index is there, its buffers hold
+ * all that is taken from them, and its nodes form trees. Throws Failure with ExitCode::Input
+ * otherwise. `name` is the name by which VTK reads the file, whose own name is for messages.
  */
 void Check(const std::string& file, const std::string& name);
 }

@@ -25,10 +25,11 @@ namespace InputFile
   throw Failure(ExitCode::Input, "cannot read " + file + ": " + why);
 }
 
-[[noreturn]] inline void RefuseLength(const std::string& file, const std::string& promise,
-  std::uint64_t promised, std::uint64_t found)
+[[noreturn]] inline void RefuseLength(
+  const std::string& file, const std::string& promise, std::uint64_t promised, std::uint64_t found)
 {
-  Refuse(file, "it is truncated: " + promise + " makes " + std::to_string(promised) +
+  Refuse(file,
+    "it is truncated: " + promise + " makes " + std::to_string(promised) +
       " bytes, but there are " + std::to_string(found));
 }
 
