@@ -27,10 +27,9 @@ inline std::string GetExtension(const std::string& file)
 /// Whether both name one place, whether or not there is a file yet.
 inline bool AreSame(const std::string& one, const std::string& other)
 {
-  namespace fs = std::filesystem;
   std::error_code error;
-  return fs::weakly_canonical(fs::absolute(one, error), error) ==
-    fs::weakly_canonical(fs::absolute(other, error), error);
+  return std::filesystem::weakly_canonical(one, error) ==
+    std::filesystem::weakly_canonical(other, error);
 }
 }
 

@@ -4,8 +4,7 @@
  * @file MeshFileCheck.h
  * Looks for damage that VTK's readers would not notice, or not survive.
  *
- * All functions throw Failure with ExitCode::Input, and take files that can be opened. For glTF see
- * GltfFileCheck.h.
+ * All functions throw Failure with ExitCode::Input, and take files that can be opened.
  */
 
 #ifndef MeshFileCheck_h
@@ -23,6 +22,9 @@ void CheckPLY(const std::string& file);
 
 /// Faces refer to points, normals and texture coordinates that the file has.
 void CheckOBJ(const std::string& file);
+
+/// The file is as long as its header says.
+void CheckGLB(const std::string& file);
 }
 
 #endif

@@ -4,7 +4,6 @@
 
 #include "Failure.h"
 #include "FileNames.h"
-#include "GltfFileCheck.h"
 #include "InputFile.h"
 #include "MeshFileCheck.h"
 #include "Messages.h"
@@ -26,8 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 namespace
@@ -49,43 +46,22 @@ vtkSmartPointer<vtkAlgorithm> MakeSTLReader(const std::string& file)
   return reader;
 }
 
-vtkSmartPointer<vtkAlgorithm> MakePLYReader(const std::string& file)
-{
-  auto reader = vtkSmartPointer<vtkPLYReader>::New();
-  reader->SetFileName(file.c_str());
-  if (!MeshFileCheck::EndsWithLineEnd(file))
-  {
-    // Of a text, VTK does not read a last line that has no end.
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf() << "\n";
-    reader->SetInputString(text.str());
-    reader->ReadFromInputStringOn();
-  }
-  return reader;
-}
-
 struct Format
 {
   const char* Extension;
   vtkSmartPointer<vtkAlgorithm> (*MakeReader)(const std::string& file);
-  /// Finds what the reader, who gets the second name, would not survive or not notice.
-  void (*Check)(const std::string& file, const std::string& name);
+  /// Finds what the reader would not survive or not notice.
+  void (*Check)(const std::string& file);
 };
 
-template <void (*CheckFile)(const std::string&)>
-void Check(const std::string& file, const std::string&)
-{
-  CheckFile(file);
-}
-
 constexpr Format Formats[] = {
-  { ".stl", MakeSTLReader, Check<MeshFileCheck::CheckSTL> },
-  { ".ply", MakePLYReader, Check<MeshFileCheck::CheckPLY> },
-  { ".obj", MakeReader<vtkOBJReader>, Check<MeshFileCheck::CheckOBJ> },
+  { ".stl", MakeSTLReader, MeshFileCheck::CheckSTL },
+  { ".ply", MakeReader<vtkPLYReader>, MeshFileCheck::CheckPLY },
+  { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ },
   { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr },
   { ".vtk", MakeReader<vtkPolyDataReader>, nullptr },
-  { ".gltf", MakeReader<vtkGLTFReader>, GltfFileCheck::Check },
-  { ".glb", MakeReader<vtkGLTFReader>, GltfFileCheck::Check },
+  { ".gltf", MakeReader<vtkGLTFReader>, nullptr },
+  { ".glb", MakeReader<vtkGLTFReader>, MeshFileCheck::CheckGLB },
 };
 
 const Format& FindFormat(const std::string& file)
@@ -212,11 +188,11 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
 {
   InputFile::CheckReadable(file);
   const Format& format = FindFormat(file);
-  const LowerCaseName name(file, format.Extension);
   if (format.Check)
   {
-    format.Check(file, name.Get());
+    format.Check(file);
   }
+  const LowerCaseName name(file, format.Extension);
   const auto reader = format.MakeReader(name.Get());
   terminal.Watch(reader, "reading");
   reader->Update();

@@ -31,7 +31,7 @@ std::string GetSentence(const std::string& text)
     }
     sentence += (sentence.empty() ? "" : " ") + line;
   }
-  const auto last = sentence.find_last_not_of(" \t\r.!");
+  const auto last = sentence.find_last_not_of(" \t\r.");
   sentence.erase(last == std::string::npos ? 0 : last + 1);
   return sentence;
 }
@@ -62,10 +62,7 @@ void Messages::KeepError(vtkObject*, unsigned long, void* text)
 
 void Messages::KeepWarning(vtkObject*, unsigned long, void* text)
 {
-  // Some readers report by a warning that a file is broken: "Error reading binary data!".
-  const std::string sentence = GetSentence(static_cast<const char*>(text));
-  const bool isError = sentence.rfind("Error", 0) == 0;
-  (isError ? this->Errors : this->Warnings).push_back(sentence);
+  this->Warnings.push_back(GetSentence(static_cast<const char*>(text)));
 }
 
 std::vector<std::string> Messages::TakeErrors()

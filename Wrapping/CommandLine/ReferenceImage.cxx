@@ -151,9 +151,8 @@ vtkSmartPointer<vtkImageData> ReferenceImage::Read(const std::string& file, Mess
   {
     information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
   }
-  const auto errors = messages.TakeErrors();
-  const std::string reason = errors.empty() ? messages.TakeReason() : errors.front();
-  if (!errors.empty() || extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5])
+  const std::string reason = messages.TakeReason();
+  if (extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5])
   {
     InputFile::Refuse(file, reason.empty() ? "there is no image in it" : reason);
   }
