@@ -1,6 +1,7 @@
 """Proves that every wrapped class can be made, printed and used from Python, that all its properties keep
 what they are given, and that the voxels are a NumPy array of shape (nz, ny, nx)."""
 import re
+import sys
 import unittest
 
 import vtkvoxelization
@@ -96,4 +97,4 @@ class Smoke(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])
