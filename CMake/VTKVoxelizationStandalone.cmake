@@ -13,7 +13,7 @@ list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 # VTK's modules, named once here. The program reads and writes files; the tests compare with
 # VTK's own filters.
 set(module_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem
+  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem FiltersCore
   ParallelCore RenderingCore RenderingOpenGL2)
 set(program_components
   FiltersCore FiltersGeneral FiltersGeometry
@@ -30,7 +30,7 @@ set(CMAKE_POLICY_DEFAULT_CMP0174 NEW)
 
 find_package(VTK 9.1 REQUIRED
   COMPONENTS ${module_components}
-  OPTIONAL_COMPONENTS glad glew)
+  OPTIONAL_COMPONENTS glad glew opengl)
 
 option(VTKVOXELIZATION_BUILD_PROGRAM "Build the program vtkvoxelize" ON)
 cmake_dependent_option(VTKVOXELIZATION_WRAP_PYTHON
