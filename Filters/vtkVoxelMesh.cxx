@@ -6,6 +6,7 @@
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace
@@ -254,7 +256,8 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
       ". Voxelize the mesh in parts and combine the results by exclusive or.");
   }
   Reserve(this->Context, this->Points, total);
-  std::vector<float> low(needsLow ? 3 * total : 0);
+  // Not a vector, which would write zeros first.
+  const std::unique_ptr<float[]> low(needsLow ? new float[3 * total] : nullptr);
   std::atomic<bool> finite{ true };
   std::atomic<bool> lowUsed{ false };
   double largest = 0.0;
@@ -303,16 +306,22 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
       }
       else
       {
+        auto* doubleArray = vtkDoubleArray::FastDownCast(points);
+        const double* doubles = doubleArray ? doubleArray->GetPointer(0) : nullptr;
         vtkSMPTools::For(0, n,
           [&](vtkIdType begin, vtkIdType end)
           {
             float sum = 0.0f;
             float most = 0.0f;
             bool used = false;
-            double p[3];
+            double tuple[3];
             for (vtkIdType i = begin; i < end; ++i)
             {
-              points->GetTuple(i, p);
+              const double* p = doubles ? doubles + 3 * i : tuple;
+              if (!doubles)
+              {
+                points->GetTuple(i, tuple);
+              }
               for (int axis = 0; axis < 3; ++axis)
               {
                 const auto rounded = static_cast<float>(p[axis]);
@@ -345,7 +354,7 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
   if (this->LowPoints)
   {
     Reserve(this->Context, this->PointsLow, total);
-    this->PointsLow.Upload(0, low.size() * sizeof(float), low.data());
+    this->PointsLow.Upload(0, 3 * total * sizeof(float), low.get());
     this->PointsLowTexture = TextureOver(this->PointsLow, GL_RGB32F);
   }
   this->PointsTexture = TextureOver(this->Points, GL_RGB32F);

@@ -1,13 +1,14 @@
 // Times vtkSlicemapSolidVoxelizer beside a scanline on the CPU (the tests' reference) and
 // vtkPolyDataToImageStencil. Arguments of a row: voxels along the longest side of the mesh.
 //
-//   Update/MESH     polydata in memory to image of unsigned char in memory, upload of the mesh
-//   included Bits/MESH       the same, the result staying on the GPU as bits Pass/MESH       bits
-//   again, the mesh on the GPU already: a change of the grid alone Scanline/MESH
-//   VoxelReference::CrossingParityReference, two threads, unsigned char Stencil/MESH
-//   vtkPolyDataToImageStencil and vtkImageStencilToImage, unsigned char Scan, Clear, Copy   the
-//   parity scan over a grid of n^3 with clearing its bits, clearing alone, and
-//                       copying the same bits
+//   Update/MESH    polydata to image of unsigned char, both in memory, upload of the mesh included
+//   Bits/MESH      the same, the result staying on the GPU as bits
+//   Pass/MESH      bits again, the mesh on the GPU already: a change of the grid alone
+//   Scanline/MESH  VoxelReference::CrossingParityReference, two threads, unsigned char
+//   Stencil/MESH   vtkPolyDataToImageStencil and vtkImageStencilToImage, unsigned char
+//   Scan           an update whose triangles do not count: the parity scan of n^3 bits, clearing
+//                  them, and what an update takes besides, which is that of 8^3 bits
+//   Clear, Copy    clearing n^3 bits, and copying them
 //
 // Meshes are those of the large data, if the build knows where they are, else the bundled one.
 
@@ -249,7 +250,7 @@ void Register()
       add("Stencil/" + name, on(Stencil), { 64, 128, 256 });
     }
   }
-  add("Scan", Scan, { 256, 512, 1024 });
+  add("Scan", Scan, { 8, 256, 512, 1024 });
   add("Clear", Clear, { 256, 512, 1024 });
   add("Copy", Copy, { 256, 512, 1024 });
 }

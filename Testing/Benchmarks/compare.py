@@ -50,8 +50,9 @@ def main():
                       " | ".join(number(a / b) if a and b else "" for a, b in row) + " |")
     for size in sizes:
         scan, clear, copy = (times.get(f"{k}/{size}") for k in ("Scan", "Clear", "Copy"))
-        if scan and clear and copy:
-            print(f"\nParity scan of {size}^3 bits: {number((scan - clear) / copy)} times a copy of them.")
+        rest = times.get("Scan/8")
+        if scan and clear and copy and rest:
+            print(f"\nParity scan of {size}^3 bits: {number((scan - clear - rest) / copy)} times a copy of them.")
 
 
 main()

@@ -19,7 +19,7 @@ using namespace VoxelTestMeshes;
 
 namespace
 {
-bool TestGrid(vtkPolyData* mesh, const std::array<int, 3>& n, int axis)
+bool TestGrid(vtkPolyData* mesh, const std::array<int, 3>& n, int backend, int axis)
 {
   const double* bounds = mesh->GetBounds();
   VoxelReference::Vector spacing;
@@ -30,20 +30,22 @@ bool TestGrid(vtkPolyData* mesh, const std::array<int, 3>& n, int axis)
   const auto grid = MakeGrid({ 0, n[0] - 1, 0, n[1] - 1, 0, n[2] - 1 },
     { bounds[0] + 0.5 * spacing[0], bounds[2] + 0.5 * spacing[1], bounds[4] + 0.5 * spacing[2] },
     spacing);
-  const auto voxelizer = MakeVoxelizer(mesh, grid, vtkVoxelizer::BACKEND_COMPUTE, axis);
+  const auto voxelizer = MakeVoxelizer(mesh, grid, backend, axis);
   voxelizer->SetOutputScalarTypeToBit();
   voxelizer->Update();
   vtkNew<vtkImageData> whole;
   whole->ShallowCopy(voxelizer->GetOutput());
   auto* bits = vtkBitArray::SafeDownCast(whole->GetPointData()->GetScalars());
   const std::string name = std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
-    std::to_string(n[2]) + " along " + "xyz"[axis];
+    std::to_string(n[2]) + " along " + "xyz"[axis] +
+    (backend == vtkVoxelizer::BACKEND_COMPUTE ? " by Compute" : " by Raster");
   if (!bits || voxelizer->GetNumberOfLeakingColumns() != 0)
   {
     std::cerr << name << ": no bits, or columns leak\n";
     return false;
   }
   bool good = true;
+  vtkIdType filled = 0;
   for (const double place : { 0.1, 0.5, 0.77 })
   {
     std::array<int, 6> part;
@@ -57,7 +59,6 @@ bool TestGrid(vtkPolyData* mesh, const std::array<int, 3>& n, int axis)
     vtkImageData* found = voxelizer->GetOutput();
     auto* partBits = vtkBitArray::SafeDownCast(found->GetPointData()->GetScalars());
     vtkIdType different = 0;
-    vtkIdType filled = 0;
     for (vtkIdType id = 0; id < partBits->GetNumberOfTuples(); ++id)
     {
       const vtkIdType nx = part[1] - part[0] + 1;
@@ -70,10 +71,14 @@ bool TestGrid(vtkPolyData* mesh, const std::array<int, 3>& n, int axis)
     }
     if (different)
     {
-      std::cerr << name << ": " << different << " voxels differ in the part at " << place << ", "
-                << filled << " filled\n";
+      std::cerr << name << ": " << different << " voxels differ in the part at " << place << "\n";
       good = false;
     }
+  }
+  if (filled == 0)
+  {
+    std::cerr << name << ": nothing is filled\n";
+    good = false;
   }
   return good;
 }
@@ -88,10 +93,15 @@ int TestLargeScale(int argc, char* argv[])
     return EXIT_FAILURE;
   }
   bool good = true;
+  const auto testGrids = [&](int backend, int axis)
+  {
+    good &= TestGrid(bunny, { 4096, 4096, 512 }, backend, axis);
+    good &= TestGrid(bunny, { 512, 512, 4096 }, backend, axis);
+  };
   for (const int axis : { 0, 1, 2 })
   {
-    good &= TestGrid(bunny, { 4096, 4096, 512 }, axis);
-    good &= TestGrid(bunny, { 512, 512, 4096 }, axis);
+    testGrids(vtkVoxelizer::BACKEND_COMPUTE, axis);
   }
+  testGrids(vtkVoxelizer::BACKEND_RASTER, 2);
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
