@@ -14,6 +14,7 @@
 #define vtkSolidComputePass_h
 
 #include "vtkSolidPass.h"
+#include "vtkTriangleDispatch.h"
 
 class vtkSolidComputePass : public vtkSolidPass
 {
@@ -34,13 +35,12 @@ private:
     const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, const Progress& progress);
   bool FillNonZero(
     const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, const Progress& progress);
-  void RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* target, const char* name,
-    const char* source, const vtkVoxelGL::Program::Defines& defines, const vtkColumnAxes& axes,
-    const Box& box);
+  void RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* target,
+    const vtkVoxelGL::Program::Defines& defines, const vtkColumnAxes& axes, const Box& box);
   void Scan(vtkSlicemap* target, int axis, const Box& box);
 
   vtkVoxelGL::Context Context;
-  vtkVoxelGL::Buffer Queue;
+  vtkTriangleDispatch Dispatch;
   vtkVoxelGL::Buffer ColumnCarries;
   vtkVoxelGL::Buffer Counters;
 };

@@ -1,7 +1,8 @@
 // Where the columns of a grid cross the triangles: Eisemann & Decoret 2008, section 5.2, with one
 // toggled bit a crossing in place of a mask of all bits behind it; vtkSolidScan.glsl does the rest.
 //
-// Follows vtkSlicemapLayout.glsl, vtkVoxelMeshFetch.glsl and vtkVoxelTileQueue.glsl.
+// Follows vtkSlicemapLayout.glsl, vtkVoxelMeshFetch.glsl, vtkVoxelTriangleRange.glsl and
+// vtkVoxelTileQueue.glsl.
 //
 // COLUMN_AXIS  0, 1 or 2: the columns run along x, y or z. The other two axes are u and v, in the
 //              order of x, y, z; "depth" runs along the column. Index coordinates come as (u, v, depth).
@@ -190,21 +191,25 @@ void rectangleOf(Outline t, out ivec2 first, out ivec2 end)
 
 void main()
 {
-  for (uint item = gl_WorkGroupID.x; item < NumberOfItems; item += gl_NumWorkGroups.x)
+  for (uint index = gl_WorkGroupID.x; index < numberOfTileItems(); index += gl_NumWorkGroups.x)
   {
-    Outline t = outlineOf(fetchTriangle(Items[item].x));
+    uvec2 item = tileItem(index);
+    Outline t = outlineOf(fetchTriangle(item.x));
     ivec2 first, end;
     rectangleOf(t, first, end);
-    uint tilesPerRow = tilesOf(first, end).x;
-    uvec2 tile = uvec2(Items[item].y % tilesPerRow, Items[item].y / tilesPerRow);
-    ivec2 corner = first + ivec2(tile * TILE_SIZE);
-    int v = corner.y + int(gl_LocalInvocationID.x);
-    if (v < end.y)
+    uvec2 tiles = tilesOf(first, end);
+    uvec2 range = tilesOfItem(item, tiles.x * tiles.y);
+    for (uint tile = range.x; tile < range.y; ++tile)
     {
-      Span span = spanOfRow(t, v, corner.x, min(corner.x + int(TILE_SIZE), end.x));
-      for (int u = span.First; u < span.End; ++u)
+      ivec2 corner = first + ivec2(uvec2(tile % tiles.x, tile / tiles.x) * TILE_SIZE);
+      int v = corner.y + int(gl_LocalInvocationID.x);
+      if (v < end.y)
       {
-        crossColumn(span, u, v);
+        Span span = spanOfRow(t, v, corner.x, min(corner.x + int(TILE_SIZE), end.x));
+        for (int u = span.First; u < span.End; ++u)
+        {
+          crossColumn(span, u, v);
+        }
       }
     }
   }
@@ -214,18 +219,18 @@ void main()
 
 void main()
 {
-  uint triangle = triangleOfInvocation();
-  if (triangle >= NumberOfTriangles)
+  uint triangle;
+  if (!triangleOfInvocation(triangle))
   {
     return;
   }
-  triangle += FirstTriangle;
   Outline t = outlineOf(fetchTriangle(triangle));
   ivec2 first, end;
   rectangleOf(t, first, end);
   float columns = float(end.x - first.x) * float(end.y - first.y);
-  if (columns > float(DIRECT_COLUMNS) && enqueueTiles(triangle, first, end))
+  if (columns > float(DIRECT_COLUMNS))
   {
+    enqueueTiles(triangle, first, end);
     return;
   }
 

@@ -32,22 +32,6 @@ using Leaves = std::vector<vtkSmartPointer<vtkPolyData>>;
 constexpr std::size_t BytesOfTriple = 12;
 constexpr vtkIdType SampleSize = 2048;
 
-/// A buffer of exactly so many triples of four bytes, kept when it has that size already.
-void Reserve(const vtkVoxelGL::Context& context, vtkVoxelGL::Buffer& buffer, std::size_t triples)
-{
-  const std::size_t bytes = std::max<std::size_t>(1, triples) * BytesOfTriple;
-  if (buffer && buffer.GetContext() == context && buffer.GetSize() == bytes)
-  {
-    return;
-  }
-  buffer = vtkVoxelGL::Buffer(context);
-  if (!buffer.Allocate(bytes))
-  {
-    throw std::runtime_error("OpenGL has no memory for " + std::to_string(bytes / 1048576) +
-      " MiB of mesh. Voxelize the mesh in parts.");
-  }
-}
-
 vtkVoxelGL::Texture TextureOver(const vtkVoxelGL::Buffer& buffer, GLenum format)
 {
   vtkVoxelGL::Texture texture(buffer.GetContext(), GL_TEXTURE_BUFFER);
@@ -255,7 +239,7 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
       this->Context->GetRendererName() + " takes " + std::to_string(limit) +
       ". Voxelize the mesh in parts and combine the results by exclusive or.");
   }
-  Reserve(this->Context, this->Points, total);
+  vtkVoxelGL::Prepare(this->Points, this->Context, total * BytesOfTriple);
   // Not a vector, which would write zeros first.
   const std::unique_ptr<float[]> low(needsLow ? new float[3 * total] : nullptr);
   std::atomic<bool> finite{ true };
@@ -353,7 +337,7 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
   this->LowPoints = lowUsed;
   if (this->LowPoints)
   {
-    Reserve(this->Context, this->PointsLow, total);
+    vtkVoxelGL::Prepare(this->PointsLow, this->Context, total * BytesOfTriple);
     this->PointsLow.Upload(0, 3 * total * sizeof(float), low.get());
     this->PointsLowTexture = TextureOver(this->PointsLow, GL_RGB32F);
   }
@@ -385,7 +369,7 @@ void vtkVoxelMesh::UploadTriangles(const Leaves& leaves, bool expectTriangles)
       this->Context->GetRendererName() + " takes " + std::to_string(limit) +
       ". Voxelize the mesh in parts and combine the results by exclusive or.");
   }
-  Reserve(this->Context, this->Triangles, total);
+  vtkVoxelGL::Prepare(this->Triangles, this->Context, total * BytesOfTriple);
   bool onlyTriangles = true;
   {
     const vtkVoxelGL::MappedBuffer mapped(this->Triangles, 0, this->Triangles.GetSize(),

@@ -1,4 +1,4 @@
-// Triangles of a vtkVoxelMesh for compute shaders, in index coordinates of the grid.
+// Triangles of a vtkVoxelMesh in double precision, in index coordinates of the grid.
 //
 // Triangles   RGB32UI buffer texture, the three point ids of each triangle
 // Points      RGB32F buffer texture, world coordinates rounded to float
@@ -10,23 +10,12 @@
 // row then is (a, -, -, d) with the one factor that is not zero.
 // All triangles at a point or an edge must see the very same numbers, hence `precise`.
 
-layout(local_size_x = 64) in;
-
 uniform usamplerBuffer Triangles;
 uniform samplerBuffer Points;
 #ifdef POINTS_ARE_DOUBLE
 uniform samplerBuffer PointsLow;
 #endif
 uniform dvec4 IndexFromWorld[3];
-uniform uint FirstTriangle;
-uniform uint NumberOfTriangles;
-
-// One invocation a triangle; the host makes rows of at most 65,535 workgroups.
-uint triangleOfInvocation()
-{
-  uint rowLength = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-  return gl_GlobalInvocationID.y * rowLength + gl_GlobalInvocationID.x;
-}
 
 // A point as it is stored, and the rest that rounding took away.
 struct StoredPoint

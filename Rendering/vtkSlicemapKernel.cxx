@@ -26,6 +26,11 @@ std::int64_t GetLimit(GLenum name)
   return limit;
 }
 
+std::int64_t GetBytesPerSlice(vtkSlicemap* slicemap)
+{
+  return slicemap->GetWordsPerRow() * slicemap->GetGrid().GetDimensions().y * WordBytes;
+}
+
 void SetRegion(Program& program, const glm::uvec3& first, const glm::uvec3& size)
 {
   program.Set("RegionFirst", std::array<unsigned int, 3>{ first.x, first.y, first.z });
@@ -34,7 +39,8 @@ void SetRegion(Program& program, const glm::uvec3& first, const glm::uvec3& size
 }
 
 Program& vtkVoxelGetProgram(const Context& context, const std::string& name,
-  const Program::Defines& defines, const std::vector<Program::Stage>& stages)
+  const Program::Defines& defines, const std::vector<Program::Stage>& stages,
+  vtkVoxelShaderVersion version)
 {
   std::string key = "program " + name;
   for (const auto& [macro, value] : defines)
@@ -44,8 +50,9 @@ Program& vtkVoxelGetProgram(const Context& context, const std::string& name,
   auto& cached = context->GetCache()[key];
   if (!cached)
   {
-    const bool compute = stages.front().Type == GL_COMPUTE_SHADER;
-    const std::string header = !compute ? "#version 150 core\n"
+    const bool storage =
+      version == vtkVoxelShaderVersion::StorageBuffers || stages.front().Type == GL_COMPUTE_SHADER;
+    const std::string header = !storage ? "#version 150 core\n"
       : context->GetVersion() >= 43     ? "#version 430 core\n"
                                         : "#version 420 core\n"
                                           "#extension GL_ARB_compute_shader : require\n"
@@ -79,6 +86,36 @@ vtkVoxelGL::Texture vtkSlicemapTexture(vtkSlicemap* slicemap)
   vtkVoxelGL::Texture texture(slicemap->GetBuffer().GetContext(), GL_TEXTURE_BUFFER);
   texture.AttachBuffer(GL_RGBA32UI, slicemap->GetBuffer());
   return texture;
+}
+
+int vtkSlicemapSlicesPerSlab(vtkSlicemap* slicemap)
+{
+  const int slices = slicemap->GetGrid().GetDimensions().z;
+  const std::int64_t fitting =
+    GetLimit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE) / GetBytesPerSlice(slicemap);
+  if (fitting >= slices)
+  {
+    return slices;
+  }
+  // Whatever is bound along with the slab has one word a slice at least, so that its offset is a
+  // multiple of the alignment too.
+  const std::int64_t slabAlignment =
+    std::max<std::int64_t>(1, GetLimit(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT) / WordBytes);
+  const std::int64_t aligned = fitting / slabAlignment * slabAlignment;
+  if (aligned == 0)
+  {
+    throw std::runtime_error("One slice of the grid with " + slicemap->GetGrid().Describe() +
+      " is too large for this OpenGL renderer. Use fewer voxels along x and y, or voxelize in "
+      "parts.");
+  }
+  return static_cast<int>(aligned);
+}
+
+void vtkSlicemapBindSlab(vtkSlicemap* slicemap, unsigned int binding, int firstSlice, int slices)
+{
+  const std::int64_t slice = GetBytesPerSlice(slicemap);
+  slicemap->GetBuffer().BindRange(
+    GL_SHADER_STORAGE_BUFFER, binding, firstSlice * slice, slices * slice);
 }
 
 void vtkSlicemapKernel::Run(const Context& context, vtkSlicemap* target, const Bind& bind) const

@@ -1,9 +1,9 @@
 // The frame of a kernel of vtkSlicemapKernel; follows vtkSlicemapLayout.glsl, precedes the kernel.
 //
-// A run fills a box of words, RegionSize words, rows and slices from RegionFirst on. The compute stage
-// writes them to storage buffer 0, which begins BaseWord words before slice RegionFirst.z of the
-// target; the fragment stage to pixel (word, slice * RegionSize.y + row) of an R32UI render target,
-// counted in the region.
+// A run fills a box of words, RegionSize words, rows and slices from RegionFirst on. The compute
+// stage writes them to storage buffer 0, which begins BaseWord words before slice RegionFirst.z of
+// the target; the fragment stage to pixel (word, slice * RegionSize.y + row) of an R32UI render
+// target, counted in the region.
 
 uniform uvec3 RegionFirst;
 uniform uvec3 RegionSize;

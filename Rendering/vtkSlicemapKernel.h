@@ -23,11 +23,19 @@
 
 class vtkSlicemap;
 
+/// What the version line of a program must allow; compute shaders have storage buffers anyway.
+enum class vtkVoxelShaderVersion
+{
+  OfStages,      ///< OpenGL 3.2, or 4.3 for compute shaders
+  StorageBuffers ///< OpenGL 4.3
+};
+
 /// A compiled program from the cache of the context; compiled and cached when it is not there yet.
 /// Throws std::runtime_error with the compiler's log.
 vtkVoxelGL::Program& vtkVoxelGetProgram(const vtkVoxelGL::Context& context, const std::string& name,
   const vtkVoxelGL::Program::Defines& defines,
-  const std::vector<vtkVoxelGL::Program::Stage>& stages);
+  const std::vector<vtkVoxelGL::Program::Stage>& stages,
+  vtkVoxelShaderVersion version = vtkVoxelShaderVersion::OfStages);
 
 /// Runs a compute program for at least so many invocations; `local` is its workgroup's size.
 /// Workgroups make a rectangle when one row of them would be too long.
@@ -35,6 +43,14 @@ void vtkVoxelDispatch(std::uint64_t invocations, unsigned int local = 64);
 
 /// A buffer texture over the words of a slicemap, four words a texel.
 vtkVoxelGL::Texture vtkSlicemapTexture(vtkSlicemap* slicemap);
+
+///@{
+/// Slices of the grid that fit into one storage buffer, whose offset may be that of any of its
+/// multiples (throws std::runtime_error when not even one does), and binding such a slab, counted
+/// from the first slice.
+int vtkSlicemapSlicesPerSlab(vtkSlicemap* slicemap);
+void vtkSlicemapBindSlab(vtkSlicemap* slicemap, unsigned int binding, int firstSlice, int slices);
+///@}
 
 class vtkSlicemapKernel
 {

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -163,6 +164,25 @@ private:
 };
 
 /**
+ * Makes `buffer` one of exactly so many bytes in `context`, the present one where it is. Throws
+ * std::runtime_error when there is not so much memory.
+ */
+inline void Prepare(Buffer& buffer, const Context& context, std::size_t bytes)
+{
+  if (buffer && buffer.GetContext() == context && buffer.GetSize() == bytes)
+  {
+    return;
+  }
+  buffer = Buffer(context);
+  if (!buffer.Allocate(bytes))
+  {
+    buffer = Buffer();
+    throw std::runtime_error("OpenGL has no memory left for a buffer of " + std::to_string(bytes) +
+      " bytes. Use fewer voxels, or voxelize the mesh in parts.");
+  }
+}
+
+/**
  * Bytes of a buffer in the address space of the process as long as it lives.
  */
 class MappedBuffer
@@ -302,6 +322,16 @@ public:
     }
     this->Bind();
     glDrawBuffers(count, buffers.data());
+  }
+
+  /**
+   * For shaders that write to buffers only (OpenGL 4.3). The framebuffer becomes the bound one.
+   */
+  void SetSizeWithoutAttachments(GLint width, GLint height)
+  {
+    this->Bind();
+    glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
+    glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
   }
 
   bool IsComplete() const

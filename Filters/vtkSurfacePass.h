@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file vtkSurfacePass.h
+ * Private header: the voxels that triangles overlap, exactly (OpenGL 4.3).
+ *
+ * Randall Rauwendaal: Hybrid Computational Voxelization Using the Graphics Pipeline. Master's
+ * thesis, Oregon State University, 2012; chapter 3. Triangles in few columns of voxels are done by
+ * one invocation each; large ones either cut into tiles of equal size, for a second dispatch, or
+ * drawn, a fragment for each column. All ways run the same test on the same numbers, so that they
+ * set the same voxels bit for bit.
+ */
+
+#ifndef vtkSurfacePass_h
+#define vtkSurfacePass_h
+
+#include "vtkTriangleDispatch.h"
+
+#include <cstdint>
+#include <limits>
+
+class vtkSlicemap;
+
+class vtkSurfacePass
+{
+public:
+  /// Takes the fraction done, answers whether to go on.
+  using Progress = std::function<bool(double)>;
+
+  enum class LargeTriangles
+  {
+    Tiles,
+    Fragments
+  };
+
+  enum class Operation
+  {
+    Set,
+    Clear
+  };
+
+  /// CutoffArea: triangles whose bounds have more columns of voxels are large.
+  static constexpr float NoneIsLarge = std::numeric_limits<float>::max();
+  static constexpr float AllAreLarge = -1.0f;
+
+  struct Settings
+  {
+    int Separability = 26; ///< 26: all touched voxels; 6: the thin surface
+    float CutoffArea = DefaultCutoffArea;
+    LargeTriangles Large = LargeTriangles::Tiles;
+    Operation Effect = Operation::Set;
+  };
+  static constexpr float DefaultCutoffArea = 1024.0f;
+
+  explicit vtkSurfacePass(vtkVoxelGL::Context context);
+
+  /// The pass of a context, kept there since it holds buffers worth reusing.
+  static vtkSurfacePass& Get(const vtkVoxelGL::Context& context);
+
+  /// Sets or clears the voxels of `target` that the triangles overlap and leaves the others. False
+  /// when told to stop. Throws std::runtime_error.
+  bool Run(const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings,
+    const Progress& progress);
+
+private:
+  struct Slab;
+
+  void RunSlab(
+    const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings, const Slab& slab);
+  void DrawDeferred(
+    const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings, const Slab& slab);
+
+  vtkVoxelGL::Context Context;
+  vtkTriangleDispatch Dispatch;
+  vtkVoxelGL::Buffer Deferred;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkSurfacePass.h

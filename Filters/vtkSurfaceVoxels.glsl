@@ -1,0 +1,131 @@
+// The voxels that triangles overlap, by compute shaders: Rauwendaal 2012, sections 3.1 (an invocation a
+// triangle) and 3.3 (hybrid: small triangles at once, large ones deferred).
+//
+// Follows vtkVoxelMeshFetch.glsl, vtkVoxelTriangleRange.glsl, vtkVoxelTileQueue.glsl, vtkSurfaceFacet.glsl
+// and vtkSurfaceOverlap.glsl; visit() is in another file.
+//
+// In the first stage an invocation does one triangle: a small one at once, unless it wants double precision,
+// while others wait for a later stage:
+//   TRIANGLES  defined: an invocation does a small triangle in double precision
+//   TILES      defined: a workgroup does a tile of a large triangle, an invocation a row of the tile
+//   fragments  with DEFER_TO_FRAGMENTS defined in the first stage, storage buffer 3 begins with the
+//              arguments of an indirect draw, six vertices a large triangle, and goes on with their ids
+// The stages are there because renderers in software run all of a shader, whatever its conditions and returns.
+//
+// CutoffArea triangles whose bounds have more columns than this are large; negative: all are
+
+uniform float CutoffArea;
+
+#ifdef DEFER_TO_FRAGMENTS
+layout(std430, binding = 3) buffer Deferred
+{
+  uint NumberOfVertices;
+  uint NumberOfInstances;
+  uint FirstVertex;
+  uint FirstInstance;
+  uint DeferredTriangles[];
+};
+#endif
+
+#ifndef TILES
+
+#ifdef TRIANGLES
+#define TRIANGLE_OVERLAP FarOverlap
+#else
+#define TRIANGLE_OVERLAP NearOverlap
+#endif
+
+void visitTriangle(Facet f, TRIANGLE_OVERLAP overlap)
+{
+  // Columns and their voxels in one loop, so that neighbouring invocations differ by their sums only.
+  ivec2 column = f.First.xy;
+  ivec2 voxels = voxelsOfColumn(overlap, column.x, column.y, f.First.z, f.End.z);
+  while (column.y < f.End.y)
+  {
+    if (voxels.x < voxels.y && overlapsVoxel(overlap, column.x, column.y, voxels.x))
+    {
+      visit(f, ivec3(column, voxels.x));
+    }
+    ++voxels.x;
+    if (voxels.x >= voxels.y)
+    {
+      column = column.x + 1 < f.End.x ? ivec2(column.x + 1, column.y) : ivec2(f.First.x, column.y + 1);
+      voxels = voxelsOfColumn(overlap, column.x, column.y, f.First.z, f.End.z);
+    }
+  }
+}
+
+#endif
+
+#if defined(TILES)
+
+void main()
+{
+  for (uint index = gl_WorkGroupID.x; index < numberOfTileItems(); index += gl_NumWorkGroups.x)
+  {
+    uvec2 item = tileItem(index);
+    Facet f;
+    facetOf(item.x, f);
+    uvec2 tiles = tilesOf(f.First.xy, f.End.xy);
+    uvec2 range = tilesOfItem(item, tiles.x * tiles.y);
+    for (uint tile = range.x; tile < range.y; ++tile)
+    {
+      ivec2 corner = f.First.xy + ivec2(uvec2(tile % tiles.x, tile / tiles.x) * TILE_SIZE);
+      int v = corner.y + int(gl_LocalInvocationID.x);
+      visitRow(f, v, corner.x, v < f.End.y ? min(corner.x + int(TILE_SIZE), f.End.x) : corner.x);
+    }
+  }
+}
+
+#elif defined(TRIANGLES)
+
+void main()
+{
+  uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+  for (uint index = gl_GlobalInvocationID.x; index < NumberOfWaiting; index += stride)
+  {
+    Facet f;
+    facetOf(waitingTriangle(index), f);
+    FarOverlap overlap;
+    setUpOverlap(overlap, f, Margin);
+    visitTriangle(f, overlap);
+  }
+}
+
+#else
+
+void deferLarge(uint triangle, Facet f)
+{
+#ifdef DEFER_TO_FRAGMENTS
+  const uint verticesPerTriangle = 6u;
+  uint vertex = atomicAdd(NumberOfVertices, verticesPerTriangle);
+  DeferredTriangles[vertex / verticesPerTriangle] = triangle;
+#else
+  enqueueTiles(triangle, f.First.xy, f.End.xy);
+#endif
+}
+
+void main()
+{
+  uint triangle;
+  Facet f;
+  if (!triangleOfInvocation(triangle) || !facetOf(triangle, f))
+  {
+    return;
+  }
+  if (columnsOf(f) > CutoffArea)
+  {
+    deferLarge(triangle, f);
+    return;
+  }
+  if (!f.Near)
+  {
+    enqueueTriangle(triangle);
+    return;
+  }
+  NearOverlap overlap;
+  setUpOverlap(overlap, f, float(NEAR_MARGIN + Margin));
+  visitTriangle(f, overlap);
+}
+
+#endif

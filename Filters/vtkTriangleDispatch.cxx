@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTriangleDispatch.h"
+
+#include "vtkSlicemapKernel.h"
+#include "vtkVoxelGrid.h"
+#include "vtkVoxelMesh.h"
+
+#include "vtkSlicemapLayoutGLSL.h"
+#include "vtkVoxelMeshFetchGLSL.h"
+#include "vtkVoxelTileQueueGLSL.h"
+#include "vtkVoxelTriangleRangeGLSL.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+using vtkVoxelGL::Program;
+
+namespace
+{
+// As in vtkVoxelTileQueue.glsl.
+constexpr std::size_t QueueCapacity = 262144;
+constexpr std::size_t QueueItemBytes = 8;
+constexpr std::array<std::uint32_t, 10> EmptyQueue{ 0, 1, 1, 0, 1, 1, 0, 0, 0, 0 };
+constexpr GLintptr TileGroupsOffset = 0;
+constexpr GLintptr TriangleGroupsOffset = 12;
+constexpr GLuint QueueBinding = 2;
+
+constexpr unsigned int MeshUnit = 1;
+
+/// The swizzle of the axes where each of them depends on one world axis alone, its own; else empty.
+std::string GetAlignedAxes(const glm::dmat4& matrix, const vtkColumnAxes& axes)
+{
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      if (row != column && matrix[column][row] != 0.0)
+      {
+        return {};
+      }
+    }
+  }
+  const char* const names = "xyz";
+  return { names[axes.U], names[axes.V], names[axes.Depth] };
+}
+
+void SetIndexFromWorld(
+  Program& program, const glm::dmat4& matrix, const vtkColumnAxes& axes, bool aligned)
+{
+  const std::array<int, 3> order{ axes.U, axes.V, axes.Depth };
+  for (int i = 0; i < 3; ++i)
+  {
+    const int row = order[i];
+    const double first = aligned ? matrix[row][row] : matrix[0][row];
+    const std::string name = "IndexFromWorld[" + std::to_string(i) + "]";
+    program.Set(
+      name.c_str(), std::array<double, 4>{ first, matrix[1][row], matrix[2][row], matrix[3][row] });
+  }
+}
+
+/// Largest sum of terms, without their signs, that makes an index coordinate of the mesh.
+double GetLargestTerms(const vtkVoxelMesh& mesh, const glm::dmat4& indexFromWorld)
+{
+  double largest = 0.0;
+  for (int row = 0; row < 3; ++row)
+  {
+    double sum = std::abs(indexFromWorld[3][row]);
+    for (int column = 0; column < 3; ++column)
+    {
+      sum += std::abs(indexFromWorld[column][row]) * mesh.GetLargestCoordinate();
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+double GetMargin(double largestTerms)
+{
+  constexpr double smallest = 1e-6;
+  constexpr double roundings = 64.0;
+  return std::max(smallest, roundings * std::numeric_limits<double>::epsilon() * largestTerms);
+}
+}
+
+vtkTriangleDispatch::vtkTriangleDispatch(vtkVoxelGL::Context context)
+  : Context(std::move(context))
+{
+}
+
+Program::Defines vtkTriangleDispatch::GetMeshDefines(
+  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const vtkColumnAxes& axes)
+{
+  Program::Defines defines;
+  const std::string aligned = GetAlignedAxes(grid.GetWorldToIndex(), axes);
+  if (!aligned.empty())
+  {
+    defines["AXES_ALIGNED"] = aligned;
+  }
+  if (mesh.HasLowPart())
+  {
+    defines["POINTS_ARE_DOUBLE"] = "1";
+  }
+  return defines;
+}
+
+void vtkTriangleDispatch::BindMesh(
+  Program& program, const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const vtkColumnAxes& axes)
+{
+  const glm::dmat4 indexFromWorld = grid.GetWorldToIndex();
+  mesh.Bind(program, MeshUnit);
+  SetIndexFromWorld(program, indexFromWorld, axes, !GetAlignedAxes(indexFromWorld, axes).empty());
+  program.Set("Margin", GetMargin(GetLargestTerms(mesh, indexFromWorld)));
+}
+
+void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Job& job)
+{
+  const std::size_t items = QueueCapacity + mesh.GetNumberOfTriangles();
+  vtkVoxelGL::Prepare(this->Queue, this->Context, sizeof(EmptyQueue) + items * QueueItemBytes);
+  this->Queue.Upload(0, sizeof(EmptyQueue), EmptyQueue.data());
+  this->Queue.BindBase(GL_SHADER_STORAGE_BUFFER, QueueBinding);
+
+  std::vector<std::string> sources{ vtkSlicemapLayoutGLSL, vtkVoxelMeshFetchGLSL,
+    vtkVoxelTriangleRangeGLSL, vtkVoxelTileQueueGLSL };
+  sources.insert(sources.end(), job.Sources.begin(), job.Sources.end());
+  auto defines = job.Defines;
+  defines.merge(GetMeshDefines(mesh, grid, job.Axes));
+  const auto use = [&]
+  {
+    Program& program =
+      vtkVoxelGetProgram(this->Context, job.Name, defines, { { GL_COMPUTE_SHADER, sources } });
+    program.Use();
+    BindMesh(program, mesh, grid, job.Axes);
+    job.SetUniforms(program);
+  };
+
+  use();
+  vtkVoxelDispatch(mesh.GetNumberOfTriangles());
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  const auto runStage = [&](const char* name, GLintptr groups)
+  {
+    defines[name] = "1";
+    use();
+    defines.erase(name);
+    this->Queue.Bind(GL_DISPATCH_INDIRECT_BUFFER);
+    glDispatchComputeIndirect(groups);
+  };
+  if (job.HasTriangleStage)
+  {
+    runStage("TRIANGLES", TriangleGroupsOffset);
+  }
+  if (job.HasTileStage)
+  {
+    runStage("TILES", TileGroupsOffset);
+  }
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}

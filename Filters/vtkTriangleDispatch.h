@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file vtkTriangleDispatch.h
+ * Private header: compute shaders over the triangles of a mesh, balanced for tiny and huge ones.
+ *
+ * The first stage has one invocation a triangle. It may queue large triangles as tiles of equal
+ * size (vtkVoxelTileQueue.glsl), for which the stage with TILES defined has one workgroup each, and
+ * triangles that want other code, for which the stage with TRIANGLES defined has one invocation
+ * each. The source is the same, and the GPU decides how many there are. Needs OpenGL 4.3.
+ */
+
+#ifndef vtkTriangleDispatch_h
+#define vtkTriangleDispatch_h
+
+#include "vtkSolidPass.h" // for vtkColumnAxes
+#include "vtkVoxelGLObjects.h"
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+class vtkVoxelMesh;
+struct vtkVoxelGrid;
+
+class vtkTriangleDispatch
+{
+public:
+  explicit vtkTriangleDispatch(vtkVoxelGL::Context context);
+
+  struct Job
+  {
+    std::string Name;                 ///< of the program
+    std::vector<std::string> Sources; ///< what follows the mesh, the triangles and the queue
+    vtkVoxelGL::Program::Defines Defines;
+    vtkColumnAxes Axes{ 2 }; ///< order in which the shader wants index coordinates
+    std::function<void(vtkVoxelGL::Program&)> SetUniforms;
+    bool HasTriangleStage = false;
+    bool HasTileStage = true;
+  };
+
+  /// Runs the stages and makes what they wrote visible to all that follows.
+  void Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Job& job);
+
+  /// Defines, textures and uniforms that vtkVoxelMeshFetch.glsl wants, and the uniform Margin: by
+  /// how much voxels are to be grown so that rounding never makes them miss a triangle.
+  static vtkVoxelGL::Program::Defines GetMeshDefines(
+    const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const vtkColumnAxes& axes);
+  static void BindMesh(vtkVoxelGL::Program& program, const vtkVoxelMesh& mesh,
+    const vtkVoxelGrid& grid, const vtkColumnAxes& axes);
+
+private:
+  vtkVoxelGL::Context Context;
+  vtkVoxelGL::Buffer Queue;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkTriangleDispatch.h
