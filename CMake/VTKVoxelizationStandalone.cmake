@@ -17,7 +17,7 @@ set(module_components
   ParallelCore RenderingCore RenderingOpenGL2)
 set(program_components
   FiltersCore FiltersGeneral FiltersGeometry
-  IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore)
+  IOCore IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore jsoncpp)
 set(test_components
   ${program_components}
   CommonTransforms FiltersModeling FiltersSources ImagingHybrid ImagingStencil

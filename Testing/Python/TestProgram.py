@@ -156,15 +156,15 @@ def gltf_parts():
     return scene, data + indices
 
 
-def gltf():
-    scene, data = gltf_parts()
+def gltf(parts=None):
+    scene, data = parts or gltf_parts()
     scene["buffers"][0]["uri"] = (
         "data:application/octet-stream;base64," + base64.b64encode(data).decode())
     return json.dumps(scene).encode()
 
 
-def glb():
-    scene, data = gltf_parts()
+def glb(parts=None):
+    scene, data = parts or gltf_parts()
     text = json.dumps(scene).encode()
     text += b" " * (-len(text) % 4)
     data += bytes(-len(data) % 4)
@@ -330,6 +330,14 @@ class TestMeshes(ProgramTest):
         scene["buffers"][0]["uri"] = "box.bin"
         self.file("box.bin", data)
         self.check(self.file("box.gltf", json.dumps(scene).encode()))
+
+    def test_gltf_without_its_textures(self):
+        for image in {"uri": "lost.png"}, {"bufferView": 0, "mimeType": "image/png"}:
+            with self.subTest(image):
+                scene, data = gltf_parts()
+                scene["images"] = [image]
+                scene["textures"] = [{"source": 0}]
+                self.check(self.file("box.glb", glb((scene, data))))
 
     def test_text_without_a_last_line_end(self):
         self.check(self.file("box.obj", obj(*box()).rstrip(b"\n")))
@@ -919,6 +927,205 @@ class TestBadInput(ProgramTest):
             with self.subTest(new=new[:20]):
                 self.assertIn(old, good)
                 self.refuse("line.ply", good.replace(old, new, 1).encode())
+
+
+class TestBadGltf(ProgramTest):
+    """Lies in glTF files: each is named, with its place."""
+
+    def refuse(self, change, *naming):
+        """Of a file that `change` is applied to, as text and binary; data may be returned by it."""
+        for name, write in ("lie.gltf", gltf), ("lie.glb", glb):
+            with self.subTest(change=change, name=name):
+                scene, data = gltf_parts()
+                if isinstance(change, dict):
+                    self.set(scene, change)
+                else:
+                    data = change(scene, data) or data
+                self.file(name, write((scene, data)))
+                self.complain(INPUT, name, "out.vti", naming=[name, *naming])
+
+    @staticmethod
+    def set(scene, values):
+        """Values by place: numbers and names with dots in between; None removes."""
+        for place, value in values.items():
+            *path, last = [int(word) if word.isdigit() else word for word in place.split(".")]
+            item = scene
+            for word in path:
+                item = item[word]
+            if value is None:
+                del item[last]
+            else:
+                item[last] = value
+
+    def test_references(self):
+        for place, naming in (
+            ("scene", "scene is 9, but there are 1 scenes"),
+            ("scenes.0.nodes.0", "scenes[0].nodes[0] is 9, but there are 2 nodes"),
+            ("nodes.0.children.0", "nodes[0].children[0] is 9"),
+            ("nodes.1.mesh", "nodes[1].mesh is 9"),
+            ("nodes.1.skin", "nodes[1].skin is 9, but there are 0 skins"),
+            ("meshes.0.primitives.0.attributes.POSITION", "attributes.POSITION is 9"),
+            ("meshes.0.primitives.0.attributes.TEXCOORD_0", "attributes.TEXCOORD_0 is 9"),
+            ("meshes.0.primitives.0.indices", "meshes[0].primitives[0].indices is 9"),
+            ("accessors.1.bufferView", "accessors[1].bufferView is 9"),
+            ("bufferViews.1.buffer", "bufferViews[1].buffer is 9, but there are 1 buffers"),
+        ):
+            self.refuse({place: 9}, naming, "export it again")
+            self.refuse({place: -1}, naming.split(" is ")[0], "whole number")
+            self.refuse({place: "0"}, naming.split(" is ")[0], "whole number")
+
+    def test_lengths(self):
+        self.refuse({"bufferViews.1.byteLength": 73}, "bufferViews[1] ends at byte 169 of a buffer of 168")
+        self.refuse({"bufferViews.1.byteOffset": 97}, "bufferViews[1] ends at byte 169")
+        self.refuse({"bufferViews.1.byteLength": 71}, "accessors[1] ends at byte 72", "71")
+        self.refuse({"accessors.1.byteOffset": 1}, "accessors[1] ends at byte 73")
+        self.refuse({"accessors.1.count": 37}, "accessors[1] ends at byte 74")
+        self.refuse({"accessors.1.componentType": 5125}, "accessors[1] ends at byte 144")
+        self.refuse({"accessors.0.type": "VEC4"}, "accessors[0] ends at byte 128")
+        self.refuse({"bufferViews.0.byteStride": 16}, "accessors[0] ends at byte 124")
+        self.refuse({"bufferViews.0.byteStride": 8}, "bufferViews[0] has a byteStride of 8")
+        self.refuse({"buffers.0.byteLength": 100000}, "buffers[0] is to have 100000 bytes")
+        self.refuse(lambda scene, data: data[:-4], "buffers[0] is to have 168 bytes", "164")
+
+    def test_numbers(self):
+        for place in ("accessors.0.count", "bufferViews.0.byteLength", "buffers.0.byteLength"):
+            for value in -1, 2**31, 2**64, 1.5, "8", [], None:
+                self.refuse({place: value}, place.split(".")[-1])
+        self.refuse({"accessors.0.count": 0}, "accessors[0] is empty")
+        self.refuse({"accessors.0.count": 2**31 - 1}, "accessors[0] ends at byte")
+        self.refuse({"accessors.0.componentType": 5124}, "accessors[0].componentType is 5124")
+        self.refuse({"accessors.0.type": "VEC5"}, "accessors[0].type")
+        self.refuse({"meshes.0.primitives.0.mode": 7}, "mode")
+        self.refuse({"nodes.1.scale": [1, 1]}, "nodes[1].scale is no list of 3 numbers")
+        self.refuse({"nodes.1.scale": [1, 1, "1"]}, "nodes[1].scale is no list of 3 numbers")
+        self.refuse({"nodes.1.matrix": [1, 0]}, "nodes[1].matrix is no list of 16 numbers")
+
+    def test_types(self):
+        for place in "bufferViews", "accessors", "meshes", "nodes", "scenes":
+            self.refuse({place + ".0": 5}, f"{place}[0] is no object")
+            self.refuse({place: "x"}, f"{place} is no list")
+        self.refuse({"asset": None}, "asset")
+        self.refuse({"asset.version": "1.0"}, "version")
+        self.refuse({"scenes": None}, "scene is 0, but there are 0 scenes")
+
+    def test_missing_parts(self):
+        self.refuse({"meshes.0.primitives.0.attributes.POSITION": None}, "no POSITION")
+        self.refuse({"accessors.0.bufferView": None}, "accessors[0] has no bufferView", "compressed")
+        self.refuse({"meshes.0": {}}, "meshes[0] has no primitives")
+        self.refuse({"meshes.0.primitives": []}, "meshes[0] has no primitives")
+
+    def test_attributes(self):
+        self.refuse({"accessors.0.type": "VEC2"}, "POSITION", "VEC3")
+        self.refuse({"accessors.0.componentType": 5123}, "POSITION", "quantization")
+        self.refuse({"accessors.1.componentType": 5122}, "indices", "componentType")
+        self.refuse({"accessors.1.type": "VEC2", "accessors.1.count": 18}, "indices")
+        attribute = "meshes.0.primitives.0.attributes."
+        self.refuse({attribute + "NORMAL": 1}, "NORMAL has 36 elements for 8 points")
+        self.refuse({attribute + "JOINTS_0": 0}, "JOINTS_0", "VEC4")
+        self.refuse({attribute + "WEIGHTS_0": 0}, "WEIGHTS_0", "VEC4")
+        self.refuse({"meshes.0.primitives.0.targets": [{"POSITION": 1}]}, "targets[0].POSITION", "36")
+
+    def test_points_that_do_not_exist(self):
+        self.refuse(lambda scene, data: data[:-2] + b"\x08\0", "indices has an index 8 into 8 elements")
+        self.refuse(lambda scene, data: data[:-2] + b"\xff\xff", "indices has an index 65535")
+
+    def test_sparse(self):
+        def sparse(**more):
+            return {"accessors.0.sparse": {
+                "count": 1, "indices": {"bufferView": 1, "byteOffset": 0, "componentType": 5123},
+                "values": {"bufferView": 0, "byteOffset": 0}} | more}
+
+        self.refuse(sparse(count=9), "sparse.values ends at byte 108")
+        self.refuse(sparse(count=37), "sparse.indices ends at byte 74")
+        self.refuse(sparse(indices={"bufferView": 0, "byteOffset": 20, "componentType": 5125}),
+                    "sparse.indices has an index")
+        self.refuse(sparse(values={"bufferView": 7, "byteOffset": 0}), "sparse.values.bufferView is 7")
+
+    def test_nodes_in_circles(self):
+        self.refuse({"nodes.1.children": [0]}, "scenes[0].nodes[0]", "child")
+        self.refuse({"nodes.1.children": [1]}, "nodes[1].children[0]", "child")
+        self.refuse({"nodes.0.children": [0]}, "scenes[0].nodes[0]", "child")
+        self.refuse({"nodes.0.children": [1, 1]}, "nodes[0].children[1]", "child")
+
+    def test_nodes_too_deep(self):
+        depth = 50000
+        chain = [{"children": [i + 1]} for i in range(depth)] + [{"mesh": 0}]
+        self.refuse({"nodes": chain}, "nodes[1001]", "flatten")
+
+    def test_skins(self):
+        self.refuse({"skins": [{"joints": [0, 1]}], "nodes.1.skin": 0}, "skins[0] has no inverseBindMatrices")
+        self.refuse({"skins": [{"joints": [7]}]}, "skins[0].joints[0] is 7")
+        self.refuse({"skins": [{"joints": [0], "inverseBindMatrices": 0}], "scenes.0.nodes": [1],
+                     "nodes.0.children": [], "nodes.1.skin": 0}, "skins[0].joints[0]", "no scene")
+
+    def test_containers(self):
+        good = glb()
+        for name, content, naming in (
+            ("magic", b"glTX" + good[4:], "glTF"),
+            ("version", good[:4] + struct.pack("<I", 1) + good[8:], "version 1"),
+            ("short", good[:-4], "truncated"),
+            ("long", good + bytes(4), "header"),
+            ("chunk", good[:12] + struct.pack("<I", 2**32 - 4) + good[16:], "chunk"),
+            ("type", good[:16] + b"BIN\0" + good[20:], "JSON"),
+            ("head", good[:12], "header"),
+        ):
+            with self.subTest(name):
+                self.file(name + ".glb", content)
+                self.complain(INPUT, name + ".glb", "out.vti", naming=[naming])
+
+    def test_binary_parts(self):
+        scene, data = gltf_parts()
+        scene["buffers"].append({"byteLength": 4})
+        self.file("two.glb", glb((scene, data)))
+        self.complain(INPUT, "two.glb", "out.vti", naming=["buffers", ".gltf"])
+        scene, data = gltf_parts()
+        scene["buffers"][0]["uri"] = "box.bin"
+        self.file("uri.glb", glb((scene, data)))
+        self.complain(INPUT, "uri.glb", "out.vti", naming=["buffers[0]", ".gltf"])
+        for buffers, naming in ([], "there are 0 buffers"), ([5], "buffers[0] is no object"):
+            scene, data = gltf_parts()
+            scene["buffers"] = buffers
+            self.file("none.glb", glb((scene, data)))
+            self.complain(INPUT, "none.glb", "out.vti", naming=[naming])
+
+    def test_json(self):
+        good = gltf()
+        for name, content, naming in (
+            ("open", good[:-1], "JSON"),
+            ("more", good + b"{}", "JSON"),
+            ("comma", good.replace(b", ", b",, ", 1), "JSON"),
+            ("deep", b"[" * 100000, "JSON"),
+            ("list", b"[]", "no object"),
+        ):
+            with self.subTest(name):
+                self.file(name + ".gltf", content)
+                self.complain(INPUT, name + ".gltf", "out.vti", naming=[naming])
+
+    def test_uris(self):
+        good = gltf_parts()[1]
+        self.file("short.bin", good[:-1])
+        self.file("long.bin", good + b"x")
+        (self.folder / "folder").mkdir()
+        base64_of_good = base64.b64encode(good).decode()
+        for uri, *naming in (
+            ("lost.bin", "lost.bin", "No such file"),
+            ("folder", "folder"),
+            ("short.bin", "buffers[0]", "168", "short.bin", "167"),
+            ("long.bin", "buffers[0]", "168", "long.bin", "169"),
+            ("data:;base64," + base64_of_good[:-4], "buffers[0]", "168", "165"),
+            ("data:;base64," + base64_of_good[:100] + "?" + base64_of_good[101:], "base64", "byte 75"),
+            ("data:;base64,", "buffers[0]", "0"),
+            ("data:", "buffers[0]", "0"),
+            (5, "buffers[0].uri is no text"),
+        ):
+            with self.subTest(uri):
+                scene, _ = gltf_parts()
+                scene["buffers"][0]["uri"] = uri
+                self.file("lie.gltf", json.dumps(scene).encode())
+                self.complain(INPUT, "lie.gltf", "out.vti", naming=naming)
+        scene, _ = gltf_parts()
+        self.file("lie.gltf", json.dumps(scene).encode())
+        self.complain(INPUT, "lie.gltf", "out.vti", naming=["buffers[0].uri is missing"])
 
 
 def main():

@@ -10,7 +10,9 @@
 
 #include "Failure.h"
 
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +23,22 @@ namespace InputFile
 [[noreturn]] inline void Refuse(const std::string& file, const std::string& why)
 {
   throw Failure(ExitCode::Input, "cannot read " + file + ": " + why);
+}
+
+[[noreturn]] inline void RefuseLength(
+  const std::string& file, const std::string& promise, std::uint64_t promised, std::uint64_t found)
+{
+  Refuse(file,
+    "it is truncated: " + promise + " makes " + std::to_string(promised) +
+      " bytes, but there are " + std::to_string(found));
+}
+
+/// The next four bytes as a number; 0 at the end of the file.
+inline std::uint32_t ReadLittleEndian(std::istream& stream)
+{
+  std::array<unsigned char, 4> bytes{};
+  stream.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
+  return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | std::uint32_t(bytes[3]) << 24;
 }
 
 /// Throws Failure unless this is a file that can be opened and is not empty.

@@ -18,27 +18,7 @@
 namespace
 {
 using InputFile::Refuse;
-using Bytes = std::array<unsigned char, 4>;
-
-std::uint32_t FromLittleEndian(const Bytes& bytes)
-{
-  return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | std::uint32_t(bytes[3]) << 24;
-}
-
-std::uint32_t ReadLittleEndian(std::istream& stream)
-{
-  Bytes bytes{};
-  stream.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
-  return FromLittleEndian(bytes);
-}
-
-[[noreturn]] void RefuseLength(
-  const std::string& file, const std::string& promise, std::uint64_t promised, std::uint64_t found)
-{
-  Refuse(file,
-    "it is truncated: " + promise + " makes " + std::to_string(promised) +
-      " bytes, but there are " + std::to_string(found));
-}
+using InputFile::RefuseLength;
 
 std::vector<std::string_view> SplitWords(std::string_view line)
 {
@@ -450,7 +430,7 @@ void MeshFileCheck::CheckSTL(const std::string& file)
   }
   std::ifstream stream(file, std::ios::binary);
   stream.seekg(headBytes - 4);
-  const std::uint32_t triangles = ReadLittleEndian(stream);
+  const std::uint32_t triangles = InputFile::ReadLittleEndian(stream);
   const std::uint64_t promised = headBytes + triangles * triangleBytes;
   if (size < promised)
   {
@@ -467,21 +447,4 @@ void MeshFileCheck::CheckPLY(const std::string& file)
 void MeshFileCheck::CheckOBJ(const std::string& file)
 {
   ObjFile(file).Check();
-}
-
-void MeshFileCheck::CheckGLB(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  constexpr std::uint32_t magic = 0x46546C67; // "glTF"
-  if (ReadLittleEndian(stream) != magic)
-  {
-    Refuse(file, "it is no GLB file: it does not begin with 'glTF'");
-  }
-  ReadLittleEndian(stream); // the version, which VTK looks at
-  const std::uint32_t promised = ReadLittleEndian(stream);
-  const std::uint64_t size = std::filesystem::file_size(file);
-  if (size < promised)
-  {
-    RefuseLength(file, "its header", promised, size);
-  }
 }

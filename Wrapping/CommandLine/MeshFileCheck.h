@@ -22,9 +22,6 @@ void CheckPLY(const std::string& file);
 
 /// Faces refer to points, normals and texture coordinates that the file has.
 void CheckOBJ(const std::string& file);
-
-/// The file is as long as its header says.
-void CheckGLB(const std::string& file);
 }
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "Failure.h"
 #include "FileNames.h"
+#include "GltfFileCheck.h"
+#include "GltfReader.h"
 #include "InputFile.h"
 #include "MeshFileCheck.h"
 #include "Messages.h"
@@ -13,7 +15,6 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArrayRange.h"
-#include "vtkGLTFReader.h"
 #include "vtkOBJReader.h"
 #include "vtkPLYReader.h"
 #include "vtkPoints.h"
@@ -60,8 +61,8 @@ constexpr Format Formats[] = {
   { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ },
   { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr },
   { ".vtk", MakeReader<vtkPolyDataReader>, nullptr },
-  { ".gltf", MakeReader<vtkGLTFReader>, nullptr },
-  { ".glb", MakeReader<vtkGLTFReader>, MeshFileCheck::CheckGLB },
+  { ".gltf", MakeReader<GltfReader>, GltfFileCheck::Check },
+  { ".glb", MakeReader<GltfReader>, GltfFileCheck::Check },
 };
 
 const Format& FindFormat(const std::string& file)
@@ -181,13 +182,28 @@ void CheckMesh(const std::string& file, vtkDataObject* data)
     InputFile::Refuse(file, "it holds no polygons");
   }
 }
+
+void RefuseErrors(const std::string& file, Messages& messages)
+{
+  const auto errors = messages.TakeErrors();
+  if (!errors.empty())
+  {
+    InputFile::Refuse(file, errors.front());
+  }
 }
 
-vtkSmartPointer<vtkDataObject> MeshReader::Read(
-  const std::string& file, Messages& messages, Terminal& terminal)
+/// Readers of VTK that see damage in the head of a file go on to its body nevertheless.
+void Update(vtkAlgorithm* reader, const std::string& file, Messages& messages)
 {
-  InputFile::CheckReadable(file);
-  const Format& format = FindFormat(file);
+  reader->UpdateInformation();
+  RefuseErrors(file, messages);
+  reader->Update();
+  RefuseErrors(file, messages);
+}
+
+vtkSmartPointer<vtkDataObject> ReadAs(
+  const Format& format, const std::string& file, Messages& messages, Terminal& terminal)
+{
   if (format.Check)
   {
     format.Check(file);
@@ -195,22 +211,35 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   const LowerCaseName name(file, format.Extension);
   const auto reader = format.MakeReader(name.Get());
   terminal.Watch(reader, "reading");
-  reader->Update();
-
-  const auto errors = messages.TakeErrors();
-  if (!errors.empty())
-  {
-    InputFile::Refuse(file, errors.front());
-  }
+  Update(reader, file, messages);
   // The reader of legacy files only warns where the file ends too early.
   const auto warnings = messages.TakeWarnings();
   if (!warnings.empty() && format.Extension == std::string(".vtk"))
   {
     InputFile::Refuse(file, warnings.front());
   }
-  vtkSmartPointer<vtkDataObject> data = reader->GetOutputDataObject(0);
-  CheckMesh(file, data);
-  return data;
+  return reader->GetOutputDataObject(0);
+}
+}
+
+vtkSmartPointer<vtkDataObject> MeshReader::Read(
+  const std::string& file, Messages& messages, Terminal& terminal)
+{
+  InputFile::CheckReadable(file);
+  try
+  {
+    const auto data = ReadAs(FindFormat(file), file, messages, terminal);
+    CheckMesh(file, data);
+    return data;
+  }
+  catch (const Failure&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    InputFile::Refuse(file, std::string("it is damaged or too large: ") + error.what());
+  }
 }
 
 std::string MeshReader::GetExtensions()

@@ -11,7 +11,10 @@
 
 namespace
 {
-/// "ERROR: In FILE, line N\nCLASS (ADDRESS): SENTENCE\n\n" becomes SENTENCE, in one line.
+/**
+ * "ERROR: In FILE, line N\nCLASS (ADDRESS): SENTENCE\n\n" becomes SENTENCE, in one line. Functions
+ * of no class write (nullptr) instead.
+ */
 std::string GetSentence(const std::string& text)
 {
   std::istringstream lines(text);
@@ -25,7 +28,8 @@ std::string GetSentence(const std::string& text)
       continue;
     }
     const auto object = line.find("): ");
-    if (sentence.empty() && object != std::string::npos && line.rfind("(0x", object) < object)
+    const bool isNamed = line.rfind("(0x", object) < object || line.rfind("(nullptr", 0) == 0;
+    if (sentence.empty() && object != std::string::npos && isNamed)
     {
       line.erase(0, object + 3);
     }

@@ -7,6 +7,7 @@
 #include "vtkNew.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #ifdef _WIN32
@@ -24,6 +25,12 @@ bool IsTerminal(FILE* stream)
 #else
   return isatty(fileno(stream)) != 0;
 #endif
+}
+
+/// Damaged files bring these into messages.
+bool IsControl(unsigned char character)
+{
+  return std::iscntrl(character) != 0;
 }
 
 struct Watched
@@ -72,7 +79,9 @@ void Terminal::PrintWarning(const std::string& message)
 void Terminal::Print(const std::string& kind, const std::string& message)
 {
   this->ClearBar();
-  std::fprintf(stderr, "vtkvoxelize: %s: %s\n", kind.c_str(), message.c_str());
+  std::string line = message;
+  std::replace_if(line.begin(), line.end(), IsControl, '?');
+  std::fprintf(stderr, "vtkvoxelize: %s: %s\n", kind.c_str(), line.c_str());
 }
 
 void Terminal::ShowProgress(const std::string& task, double fraction)
