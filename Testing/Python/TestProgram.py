@@ -340,7 +340,11 @@ class TestMeshes(ProgramTest):
                 self.check(self.file("box.glb", glb((scene, data))))
 
     def test_text_without_a_last_line_end(self):
-        self.check(self.file("box.obj", obj(*box()).rstrip(b"\n")))
+        meshes = {"box.obj": obj(*box()), "box.ply": ply_text(*box()), "box.stl": stl_text(*box())}
+        for name, content in meshes.items():
+            with self.subTest(name):
+                self.check(self.file(name, content.rstrip(b"\n")))
+
 
     def test_obj_with_relative_indices_and_textures(self):
         points, triangles = box()
@@ -921,6 +925,7 @@ class TestBadInput(ProgramTest):
 
     def test_ply_lines(self):
         good = ply_text(*box()).decode()
+        self.refuse("last.ply", good[:good.rindex(" ")].encode(), "face 11", "too short")
         for old, new in (("1 2 3\n", "1 2\n"), ("1 2 3\n", "\n1 2 3\n"), ("1 2 3\n", "1 2 three\n"),
                          ("\n3 0 1 3\n", "\n300 0 1 3\n"), ("\n3 0 1 3\n", "\n-3 0 1 3\n"),
                          ("\n3 0 1 3\n", "\n3 0 1 3" + 5000 * " " + "\n")):

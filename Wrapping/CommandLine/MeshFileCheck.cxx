@@ -78,6 +78,12 @@ public:
   {
   }
 
+  bool IsText()
+  {
+    this->ReadHeader();
+    return this->Encoding == "ascii";
+  }
+
   void Check()
   {
     this->ReadHeader();
@@ -238,10 +244,6 @@ private:
     if (!this->ReadLine(this->Line))
     {
       this->RefuseTruncated(element, index);
-    }
-    if (this->Stream.eof())
-    {
-      Refuse(this->File, "its last line has no end; VTK can't read that, so add a line end");
     }
     const auto words = SplitWords(this->Line);
     std::size_t next = 0;
@@ -442,6 +444,13 @@ void MeshFileCheck::CheckSTL(const std::string& file)
 void MeshFileCheck::CheckPLY(const std::string& file)
 {
   PlyFile(file).Check();
+}
+
+bool MeshFileCheck::IsPLYWithoutLastLineEnd(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(-1, std::ios::end);
+  return stream.get() != '\n' && PlyFile(file).IsText();
 }
 
 void MeshFileCheck::CheckOBJ(const std::string& file)

@@ -20,6 +20,9 @@ void CheckSTL(const std::string& file);
 /// The header declares points and faces, and the file holds all of them.
 void CheckPLY(const std::string& file);
 
+/// Whether this is a PLY file in text that ends within its last line.
+bool IsPLYWithoutLastLineEnd(const std::string& file);
+
 /// Faces refer to points, normals and texture coordinates that the file has.
 void CheckOBJ(const std::string& file);
 }

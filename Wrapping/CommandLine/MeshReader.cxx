@@ -26,6 +26,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <vector>
 
 namespace
@@ -47,6 +49,21 @@ vtkSmartPointer<vtkAlgorithm> MakeSTLReader(const std::string& file)
   return reader;
 }
 
+/// VTK wants to have an end to the last line of a text.
+vtkSmartPointer<vtkAlgorithm> MakePLYReader(const std::string& file)
+{
+  auto reader = vtkSmartPointer<vtkPLYReader>::New();
+  if (MeshFileCheck::IsPLYWithoutLastLineEnd(file))
+  {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf() << '\n';
+    reader->SetInputString(text.str());
+    reader->ReadFromInputStringOn();
+  }
+  reader->SetFileName(file.c_str());
+  return reader;
+}
+
 struct Format
 {
   const char* Extension;
@@ -57,7 +74,7 @@ struct Format
 
 constexpr Format Formats[] = {
   { ".stl", MakeSTLReader, MeshFileCheck::CheckSTL },
-  { ".ply", MakeReader<vtkPLYReader>, MeshFileCheck::CheckPLY },
+  { ".ply", MakePLYReader, MeshFileCheck::CheckPLY },
   { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ },
   { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr },
   { ".vtk", MakeReader<vtkPolyDataReader>, nullptr },
