@@ -918,6 +918,14 @@ class TestBadInput(ProgramTest):
             ("element face 12", "element cat 12"),
             ("end_header\n", ""),
             ("ply\n", "plyx\n"),
+            ("comment a box\n", "\n"),
+            ("comment a box", "comment " + 5000 * "x"),
+            ("comment a box", "comment \0"),
+            ("list uchar int", "list float int"),
+            ("list uchar int", "list uchar float"),
+            ("end_header", "property float texcoord\nend_header"),
+            ("end_header", "property list uchar int red\nend_header"),
+            ("end_header", "element vertex 1\nproperty int x\nend_header"),
         ):
             with self.subTest(new=new):
                 self.assertIn(old, good)
@@ -928,10 +936,57 @@ class TestBadInput(ProgramTest):
         self.refuse("last.ply", good[:good.rindex(" ")].encode(), "face 11", "too short")
         for old, new in (("1 2 3\n", "1 2\n"), ("1 2 3\n", "\n1 2 3\n"), ("1 2 3\n", "1 2 three\n"),
                          ("\n3 0 1 3\n", "\n300 0 1 3\n"), ("\n3 0 1 3\n", "\n-3 0 1 3\n"),
-                         ("\n3 0 1 3\n", "\n3 0 1 3" + 5000 * " " + "\n")):
+                         ("\n3 0 1 3\n", "\n3 0 1 3" + 5000 * " " + "\n"),
+                         ("\n3 0 1 3\n", "\n3 0 1 \0 3\n"), ("\n3 0 1 3\n", "\n12e-1 0 1\n")):
             with self.subTest(new=new[:20]):
                 self.assertIn(old, good)
                 self.refuse("line.ply", good.replace(old, new, 1).encode())
+
+    def legacy(self, binary, version):
+        writer = vtkPolyDataWriter()
+        writer.SetFileVersion(version)
+        (writer.SetFileTypeToBinary if binary else writer.SetFileTypeToASCII)()
+        written(writer, polydata(*box()), self.folder / "made.vtk")
+        return (self.folder / "made.vtk").read_bytes()
+
+    def test_legacy_counts(self):
+        for binary in False, True:
+            good = self.legacy(binary, 42)
+            for old, new in ((b"POLYGONS 12 48", b"POLYGONS 12 47"), (b"POLYGONS 12 48", b"POLYGONS 13 48"),
+                             (b"POLYGONS 12 48", b"POLYGONS 12 4800000000000"),
+                             (b"POLYGONS 12 48", b"POLYGONS -12 48"), (b"POLYGONS 12 48", b"POLYGONS 12 -48"),
+                             (b"POINTS 8", b"POINTS 9"), (b"POINTS 8", b"POINTS 2147483647"),
+                             (b"POINTS 8", b"POINTS -8"), (b"POINTS 8", b"POINTS x")):
+                with self.subTest(binary=binary, new=new):
+                    self.assertIn(old, good)
+                    self.refuse("counts.vtk", good.replace(old, new, 1))
+
+    def test_legacy_cells(self):
+        good = self.legacy(True, 42)
+        first = struct.pack(">4i", 3, 0, 1, 3)
+        for corners in -1, 47, 2**31 - 1:
+            with self.subTest(corners):
+                self.assertIn(first, good)
+                self.refuse("cells.vtk", good.replace(first, struct.pack(">i", corners) + first[4:], 1),
+                            "polygons are damaged")
+
+    def test_legacy_offsets(self):
+        good = self.legacy(True, 51)
+        offsets = struct.pack(">4q", 0, 3, 6, 9)
+        for second in -3, 30000, 2**62:
+            with self.subTest(second):
+                self.assertIn(offsets, good)
+                self.refuse("offsets.vtk", good.replace(offsets, struct.pack(">4q", 0, second, 6, 9), 1),
+                            "points which do not exist")
+
+    @unittest.skipIf("asan" in os.environ.get("LD_PRELOAD", ""), "ends where memory ends")
+    @unittest.skipUnless(sys.platform == "linux", "memory is limited on Linux only")
+    def test_vtp_that_wants_all_memory(self):
+        written(vtkXMLPolyDataWriter(), polydata(*box()), self.folder / "made.vtp")
+        good = (self.folder / "made.vtp").read_bytes()
+        one_block = b"_" + base64.b64encode(struct.pack("<2I", 1, 2**15))[:6]
+        self.assertIn(one_block, good)
+        self.refuse("blocks.vtp", good.replace(one_block, b"_////fw", 1), "memory")
 
 
 class TestBadGltf(ProgramTest):

@@ -41,6 +41,14 @@ inline std::uint32_t ReadLittleEndian(std::istream& stream)
   return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | std::uint32_t(bytes[3]) << 24;
 }
 
+/// The same from the other end.
+inline std::uint32_t ReadBigEndian(std::istream& stream)
+{
+  std::array<unsigned char, 4> bytes{};
+  stream.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
+  return bytes[3] | bytes[2] << 8 | bytes[1] << 16 | std::uint32_t(bytes[0]) << 24;
+}
+
 /// Throws Failure unless this is a file that can be opened and is not empty.
 inline void CheckReadable(const std::string& file)
 {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -102,10 +103,15 @@ public:
   }
 
 private:
-  /// VTK reads lines into a buffer of this size.
-  static constexpr std::size_t MaximumLine = 4094;
   /// VTK counts the corners of a face in a byte.
   static constexpr std::int64_t MaximumCorners = 255;
+
+  /// VTK reads lines into a buffer of 4096 bytes, up to the first that is zero.
+  static bool IsReadable(const std::string& line)
+  {
+    constexpr std::size_t longest = 4094;
+    return line.size() <= longest && line.find('\0') == std::string::npos;
+  }
 
   bool ReadLine(std::string& line) { return static_cast<bool>(std::getline(this->Stream, line)); }
 
@@ -119,7 +125,11 @@ private:
     while (this->ReadLine(line))
     {
       const auto words = SplitWords(line);
-      if (words.empty() || words[0] == "comment" || words[0] == "obj_info")
+      if (words.empty() || !IsReadable(line))
+      {
+        Refuse(this->File, "its header has a line that is empty, too long, or no text");
+      }
+      if (words[0] == "comment" || words[0] == "obj_info")
       {
         continue;
       }
@@ -154,7 +164,7 @@ private:
       this->GetSize(property.Type);
       if (isList)
       {
-        this->GetSize(property.CountType);
+        this->CheckCountType(property.CountType);
       }
       this->Elements.back().Properties.push_back(property);
     }
@@ -164,8 +174,51 @@ private:
     }
   }
 
+  static bool IsReal(const std::string& type) { return type[0] == 'f' || type[0] == 'd'; }
+
+  void CheckCountType(const std::string& type) const
+  {
+    this->GetSize(type);
+    if (IsReal(type))
+    {
+      Refuse(this->File, "its header has a list that is counted by the type '" + type + "'");
+    }
+  }
+
+  /// VTK takes it for granted that these are no lists, and texcoord is one.
+  void CheckKinds(const PlyElement& element) const
+  {
+    static const std::set<std::string> scalars = { "x", "y", "z", "u", "v", "nx", "ny", "nz", "red",
+      "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue", "texture_u",
+      "texture_v", "intensity" };
+    for (const PlyProperty& property : element.Properties)
+    {
+      const bool isList = !property.CountType.empty();
+      if (isList ? scalars.count(property.Name) != 0 : property.Name == "texcoord")
+      {
+        Refuse(this->File,
+          "the property " + property.Name + " of its " + element.Name + " is " +
+            (isList ? "a list" : "no list"));
+      }
+    }
+  }
+
+  void CheckElements() const
+  {
+    std::set<std::string> names;
+    for (const PlyElement& element : this->Elements)
+    {
+      this->CheckKinds(element);
+      if (!names.insert(element.Name).second)
+      {
+        Refuse(this->File, "its header has the element " + element.Name + " twice");
+      }
+    }
+  }
+
   void CheckHeader() const
   {
+    this->CheckElements();
     if (this->Encoding != "ascii" && this->Encoding != "binary_little_endian" &&
       this->Encoding != "binary_big_endian")
     {
@@ -188,9 +241,9 @@ private:
       Refuse(this->File, "no faces follow its vertices");
     }
     const PlyProperty* corners = this->Elements[1].Find("vertex_indices");
-    if (!corners || corners->CountType.empty())
+    if (!corners || corners->CountType.empty() || IsReal(corners->Type))
     {
-      Refuse(this->File, "its faces have no list vertex_indices");
+      Refuse(this->File, "its faces have no list vertex_indices of whole numbers");
     }
   }
 
@@ -239,6 +292,21 @@ private:
     }
   }
 
+  /// The whole number that VTK makes of the beginning of a word for a number.
+  std::int64_t ReadWord(
+    const std::string& word, const PlyElement& element, std::int64_t index) const
+  {
+    char* end = nullptr;
+    std::strtod(word.c_str(), &end);
+    if (*end != '\0')
+    {
+      Refuse(this->File,
+        element.Name + " " + std::to_string(index) + " has '" + word + "' for a number");
+    }
+    constexpr int decimal = 10;
+    return std::strtoll(word.c_str(), nullptr, decimal);
+  }
+
   void ReadLineOf(const PlyElement& element, std::int64_t index)
   {
     if (!this->ReadLine(this->Line))
@@ -249,22 +317,13 @@ private:
     std::size_t next = 0;
     const auto readNumber = [&]() -> std::int64_t
     {
-      if (next == words.size() || this->Line.size() > MaximumLine)
+      if (next == words.size() || !IsReadable(this->Line))
       {
         Refuse(this->File,
           "the line of " + element.Name + " " + std::to_string(index) +
-            (next == words.size() ? " is too short" : " is too long"));
+            (next == words.size() ? " is too short" : " is too long, or no text"));
       }
-      const std::string word(words[next++]);
-      char* end = nullptr;
-      const double number = std::strtod(word.c_str(), &end);
-      if (*end != '\0')
-      {
-        Refuse(this->File,
-          element.Name + " " + std::to_string(index) + " has '" + word + "' for a number");
-      }
-      constexpr double highest = 1e15;
-      return std::abs(number) < highest ? static_cast<std::int64_t>(number) : -1;
+      return this->ReadWord(std::string(words[next++]), element, index);
     };
     for (const PlyProperty& property : element.Properties)
     {

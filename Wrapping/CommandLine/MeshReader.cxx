@@ -7,6 +7,8 @@
 #include "GltfFileCheck.h"
 #include "GltfReader.h"
 #include "InputFile.h"
+#include "LegacyFileCheck.h"
+#include "MemoryLimit.h"
 #include "MeshFileCheck.h"
 #include "Messages.h"
 #include "Terminal.h"
@@ -27,6 +29,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <new>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -77,7 +81,7 @@ constexpr Format Formats[] = {
   { ".ply", MakePLYReader, MeshFileCheck::CheckPLY },
   { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ },
   { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr },
-  { ".vtk", MakeReader<vtkPolyDataReader>, nullptr },
+  { ".vtk", MakeReader<vtkPolyDataReader>, LegacyFileCheck::Check },
   { ".gltf", MakeReader<GltfReader>, GltfFileCheck::Check },
   { ".glb", MakeReader<GltfReader>, GltfFileCheck::Check },
 };
@@ -162,6 +166,10 @@ bool AreFinite(vtkPoints* points)
 
 bool ReferToPoints(vtkCellArray* cells, vtkIdType numberOfPoints)
 {
+  if (!cells->IsValid())
+  {
+    return false;
+  }
   const vtkIdType* ids = nullptr;
   vtkIdType count = 0;
   for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
@@ -228,13 +236,13 @@ vtkSmartPointer<vtkDataObject> ReadAs(
   const LowerCaseName name(file, format.Extension);
   const auto reader = format.MakeReader(name.Get());
   terminal.Watch(reader, "reading");
-  Update(reader, file, messages);
   // The reader of legacy files only warns where the file ends too early.
-  const auto warnings = messages.TakeWarnings();
-  if (!warnings.empty() && format.Extension == std::string(".vtk"))
+  std::optional<Messages::Strictness> strictness;
+  if (format.Extension == std::string(".vtk"))
   {
-    InputFile::Refuse(file, warnings.front());
+    strictness.emplace(messages);
   }
+  Update(reader, file, messages);
   return reader->GetOutputDataObject(0);
 }
 }
@@ -245,6 +253,7 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   InputFile::CheckReadable(file);
   try
   {
+    const MemoryLimit limit(file);
     const auto data = ReadAs(FindFormat(file), file, messages, terminal);
     CheckMesh(file, data);
     return data;
@@ -253,9 +262,13 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   {
     throw;
   }
+  catch (const std::bad_alloc&)
+  {
+    InputFile::Refuse(file, "it is damaged, or takes more memory than there is");
+  }
   catch (const std::exception& error)
   {
-    InputFile::Refuse(file, std::string("it is damaged or too large: ") + error.what());
+    InputFile::Refuse(file, std::string("it is damaged: ") + error.what());
   }
 }
 

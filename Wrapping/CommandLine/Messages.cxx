@@ -7,6 +7,7 @@
 #include "vtkOutputWindow.h"
 
 #include <iostream>
+#include <stdexcept>
 #include <utility>
 
 namespace
@@ -59,14 +60,34 @@ Messages::~Messages()
   std::cerr.rdbuf(this->FormerBuffer);
 }
 
+Messages::Strictness::Strictness(Messages& messages)
+  : Keeper(messages)
+{
+  this->Keeper.IsStrict = true;
+}
+
+Messages::Strictness::~Strictness()
+{
+  this->Keeper.IsStrict = false;
+}
+
 void Messages::KeepError(vtkObject*, unsigned long, void* text)
 {
-  this->Errors.push_back(GetSentence(static_cast<const char*>(text)));
+  this->Keep(this->Errors, text);
 }
 
 void Messages::KeepWarning(vtkObject*, unsigned long, void* text)
 {
-  this->Warnings.push_back(GetSentence(static_cast<const char*>(text)));
+  this->Keep(this->Warnings, text);
+}
+
+void Messages::Keep(std::vector<std::string>& messages, const void* text) const
+{
+  messages.push_back(GetSentence(static_cast<const char*>(text)));
+  if (this->IsStrict)
+  {
+    throw std::runtime_error(messages.back());
+  }
 }
 
 std::vector<std::string> Messages::TakeErrors()

@@ -30,6 +30,22 @@ public:
   void operator=(const Messages&) = delete;
 
   /**
+   * While it lives, errors and warnings are thrown as std::runtime_error, which ends what VTK does:
+   * not all of its readers survive to go on.
+   */
+  class Strictness
+  {
+  public:
+    explicit Strictness(Messages& messages);
+    ~Strictness();
+    Strictness(const Strictness&) = delete;
+    void operator=(const Strictness&) = delete;
+
+  private:
+    Messages& Keeper;
+  };
+
+  /**
    * What came since the last call: errors, warnings, or the most telling one of all, which is the
    * first error, the first warning or else what was written to std::cerr; empty when nothing came.
    */
@@ -40,6 +56,7 @@ public:
 private:
   void KeepError(vtkObject*, unsigned long, void* text);
   void KeepWarning(vtkObject*, unsigned long, void* text);
+  void Keep(std::vector<std::string>& messages, const void* text) const;
 
   vtkSmartPointer<vtkOutputWindow> Window;
   vtkSmartPointer<vtkOutputWindow> FormerWindow;
@@ -47,6 +64,7 @@ private:
   std::streambuf* FormerBuffer;
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
+  bool IsStrict = false;
 };
 
 #endif
