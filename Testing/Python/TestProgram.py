@@ -731,6 +731,7 @@ class TestTerminal(ProgramTest):
 
     def test_no_progress_when_quiet(self):
         self.assertEqual(self.watch("--quiet"), "")
+        self.assertEqual(self.watch("--quiet", "--picture", "out.png"), "")
 
 
 class TestUsage(ProgramTest):
