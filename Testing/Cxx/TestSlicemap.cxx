@@ -123,7 +123,7 @@ void TestSize(VoxelTestChecks& checks, const std::array<int, 3>& n)
 }
 }
 
-int TestSlicemap(int, char*[])
+int TestSlicemap(int /*argc*/, char* /*argv*/[])
 {
   VoxelTestChecks checks;
   for (const auto& n : std::vector<std::array<int, 3>>{

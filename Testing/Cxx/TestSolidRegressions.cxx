@@ -160,7 +160,7 @@ void TestOtherCells(VoxelTestChecks& checks)
 }
 }
 
-int TestSolidRegressions(int, char*[])
+int TestSolidRegressions(int /*argc*/, char* /*argv*/[])
 {
   VoxelTestChecks checks;
   TestGrids(checks);

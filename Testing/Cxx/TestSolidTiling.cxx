@@ -13,7 +13,7 @@
 using namespace VoxelSolidTests;
 using namespace VoxelTestMeshes;
 
-int TestSolidTiling(int, char*[])
+int TestSolidTiling(int /*argc*/, char* /*argv*/[])
 {
   const int seed = 2;
   bool good = true;

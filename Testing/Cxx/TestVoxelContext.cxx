@@ -278,7 +278,7 @@ public:
       for (GLuint i = 0; i < 8; ++i)
       {
         glBindBufferRange(
-          GL_SHADER_STORAGE_BUFFER, i, this->Bytes.GetName(), offset, 256 * (i + 1));
+          GL_SHADER_STORAGE_BUFFER, i, this->Bytes.GetName(), offset, GLsizeiptr(256) * (i + 1));
         glBindImageTexture(
           i, this->Layers.GetName(), 0, odd, 1, odd ? GL_WRITE_ONLY : GL_READ_WRITE, GL_R32UI);
       }
@@ -460,7 +460,7 @@ void TestCompute(vtkVoxelContext* context)
       log);
   Expect(bool(program), "the compute program compiles: " + log);
   vtkVoxelGL::Buffer words(context->GetRecord());
-  Expect(words.Allocate(256 * 4), "words");
+  Expect(words.Allocate(256 * sizeof(GLuint)), "words");
   words.BindBase(GL_SHADER_STORAGE_BUFFER, 0);
   program.Use();
   program.Set("Factor", 3u);

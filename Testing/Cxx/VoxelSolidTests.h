@@ -53,7 +53,7 @@ bool CheckExact(const std::string& name, vtkPolyData* mesh, vtkImageData* grid,
 
 /// The modes over-conservative, under-conservative and boundary of each backend against brute
 /// force.
-bool CheckConservative(const std::string& name, vtkPolyData* mesh, vtkImageData* grid);
+bool CheckConservative(const std::string& name, vtkPolyData* mesh, vtkImageData* image);
 
 /// Each of some random parts of the grid, asked for by update extent, equals that part of the
 /// whole.

@@ -266,7 +266,7 @@ std::vector<double> DistanceToSurface(
   vtkPolyData* mesh, const Grid& grid, const std::vector<Voxel>& voxels, double reach, int threads)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const std::vector<double> beyondReach(voxels.size(), infinity);
+  std::vector<double> beyondReach(voxels.size(), infinity);
   if (voxels.empty())
   {
     return beyondReach;

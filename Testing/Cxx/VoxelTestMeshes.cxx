@@ -97,6 +97,7 @@ Polygons PolygonsOf(vtkPolyData* mesh)
 std::vector<Vector> BoxCorners(const Vector& low, const Vector& high)
 {
   std::vector<Vector> corners;
+  corners.reserve(8);
   for (int corner = 0; corner < 8; ++corner)
   {
     corners.push_back({ corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
@@ -157,7 +158,8 @@ std::string FindMeshFile(const std::string& fileName, int argc, char* argv[])
 {
   for (const std::string& directory : MeshDirectories(argc, argv))
   {
-    const std::string path = directory + "/" + fileName;
+    std::string path = directory;
+    path.append("/").append(fileName);
     if (vtksys::SystemTools::FileExists(path, true))
     {
       return path;
@@ -318,6 +320,7 @@ Mesh StarPrism(const Vector& centre, double radius, double height, int spikes)
 Mesh NestedShells(const Vector& centre, const std::vector<double>& radii)
 {
   std::vector<Mesh> shells;
+  shells.reserve(radii.size());
   for (double radius : radii)
   {
     shells.push_back(Sphere(centre, radius));
@@ -518,7 +521,7 @@ Mesh WithDegenerates(vtkPolyData* mesh, int seed, int count)
   const auto original = static_cast<int>(points.size());
   const auto copyOf = [&points](vtkIdType point)
   {
-    points.push_back(Vector(points[point]));
+    points.emplace_back(points[point]);
     return static_cast<vtkIdType>(points.size()) - 1;
   };
   for (int number = 0; number < count; ++number)

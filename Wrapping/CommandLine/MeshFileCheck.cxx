@@ -6,6 +6,7 @@
 
 #include "vtksys/SystemTools.hxx"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace
@@ -343,22 +345,24 @@ private:
   /// An integer of the given type; floating-point types are skipped.
   std::int64_t ReadBinary(const std::string& type, const PlyElement& element, std::int64_t index)
   {
-    std::array<unsigned char, 8> bytes;
+    std::array<unsigned char, 8> bytes{};
     const std::size_t size = this->GetSize(type);
     if (!this->Stream.read(reinterpret_cast<char*>(bytes.data()), size))
     {
       this->RefuseTruncated(element, index);
     }
-    std::uint64_t value = 0;
+    if (this->Encoding == "binary_little_endian")
+    {
+      std::reverse(bytes.begin(), bytes.begin() + size);
+    }
+    constexpr unsigned char signBit = 0x80;
+    const bool isNegative = type.front() != 'u' && (bytes[0] & signBit) != 0;
+    std::uint64_t value = isNegative ? ~std::uint64_t(0) : 0;
     for (std::size_t i = 0; i < size; ++i)
     {
-      const bool isLittle = this->Encoding == "binary_little_endian";
-      value = value << 8 | bytes[isLittle ? size - 1 - i : i];
+      value = value << 8 | bytes[i];
     }
-    const bool isSigned = type.front() != 'u';
-    const int shift = 64 - 8 * static_cast<int>(size);
-    return isSigned ? static_cast<std::int64_t>(value << shift) >> shift
-                    : static_cast<std::int64_t>(value);
+    return static_cast<std::int64_t>(value);
   }
 
   void ReadBytesOf(const PlyElement& element, std::int64_t index)
@@ -391,19 +395,19 @@ private:
 class ObjFile
 {
 public:
-  explicit ObjFile(const std::string& file)
-    : File(file)
+  explicit ObjFile(std::string file)
+    : File(std::move(file))
   {
   }
 
   void Check()
   {
     // Positive indices may refer to what comes later, negative ones count back from their line.
-    this->ReadLines([this](const auto& words) { this->Count(words[0], this->Totals); });
+    this->ReadLines([this](const auto& words) { Count(words[0], this->Totals); });
     this->ReadLines(
       [this](const auto& words)
       {
-        this->Count(words[0], this->Seen);
+        Count(words[0], this->Seen);
         if (words[0] == "f" || words[0] == "l" || words[0] == "p")
         {
           for (std::size_t i = 1; i < words.size(); ++i)

@@ -254,7 +254,7 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   try
   {
     const MemoryLimit limit(file);
-    const auto data = ReadAs(FindFormat(file), file, messages, terminal);
+    auto data = ReadAs(FindFormat(file), file, messages, terminal);
     CheckMesh(file, data);
     return data;
   }

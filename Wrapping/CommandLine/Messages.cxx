@@ -71,12 +71,12 @@ Messages::Strictness::~Strictness()
   this->Keeper.IsStrict = false;
 }
 
-void Messages::KeepError(vtkObject*, unsigned long, void* text)
+void Messages::KeepError(vtkObject* /*caller*/, unsigned long /*event*/, void* text)
 {
   this->Keep(this->Errors, text);
 }
 
-void Messages::KeepWarning(vtkObject*, unsigned long, void* text)
+void Messages::KeepWarning(vtkObject* /*caller*/, unsigned long /*event*/, void* text)
 {
   this->Keep(this->Warnings, text);
 }

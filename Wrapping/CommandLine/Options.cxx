@@ -139,7 +139,7 @@ public:
     const auto parts = this->Split(bounds.size());
     std::transform(parts.begin(), parts.end(), bounds.begin(),
       [](const Argument& part) { return part.AsReal(); });
-    for (const int axis : { 0, 1, 2 })
+    for (const std::size_t axis : { 0, 1, 2 })
     {
       if (!(bounds[2 * axis] < bounds[2 * axis + 1]))
       {
@@ -300,7 +300,9 @@ void RefuseTogether(const Names& given, const std::string& one,
   {
     if (given.count(one) && given.count(other))
     {
-      Refuse(one + " and " + other + " contradict each other: " + why);
+      std::string message = one;
+      message.append(" and ").append(other).append(" contradict each other: ").append(why);
+      Refuse(message);
     }
   }
 }

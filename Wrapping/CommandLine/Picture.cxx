@@ -218,14 +218,14 @@ public:
   explicit Quads(std::size_t count)
   {
     this->Points->SetDataTypeToDouble();
-    this->Points->SetNumberOfPoints(static_cast<vtkIdType>(4 * count));
+    this->Points->SetNumberOfPoints(4 * static_cast<vtkIdType>(count));
     this->Colors->SetNumberOfComponents(3);
-    this->Colors->SetNumberOfTuples(static_cast<vtkIdType>(4 * count));
+    this->Colors->SetNumberOfTuples(4 * static_cast<vtkIdType>(count));
   }
 
   void SetCorner(std::size_t quad, int corner, const glm::dvec3& point, const Color& color)
   {
-    const auto id = static_cast<vtkIdType>(4 * quad + corner);
+    const auto id = 4 * static_cast<vtkIdType>(quad) + corner;
     this->Points->SetPoint(id, &point[0]);
     const std::array<unsigned char, 3> bytes = { ToByte(color[0]), ToByte(color[1]),
       ToByte(color[2]) };

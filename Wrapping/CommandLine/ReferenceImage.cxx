@@ -80,7 +80,7 @@ Direction FromColumns(const std::vector<double>& numbers)
   }
   for (const int axis : { 0, 1, 2 })
   {
-    const double* column = &numbers[3 * axis];
+    const double* column = numbers.data() + std::ptrdiff_t(3) * axis;
     const double length = std::hypot(column[0], column[1], column[2]);
     for (const int row : { 0, 1, 2 })
     {

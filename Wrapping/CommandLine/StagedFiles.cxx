@@ -104,12 +104,13 @@ std::string StagedFiles::Add(const std::string& target)
   {
     RefuseToWrite(target, fs::is_directory(path, error) ? "it is a folder" : "it is not a file");
   }
-  const std::string temporary = MakeTemporaryName(path);
+  std::string temporary = MakeTemporaryName(path);
   if (temporary.size() >= MaximumLength || this->Files.size() == MaximumFiles)
   {
     RefuseToWrite(target, std::strerror(ENAMETOOLONG));
   }
-  std::strcpy(Registered[this->Files.size()].data(), temporary.c_str());
+  auto& registered = Registered[this->Files.size()];
+  registered[temporary.copy(registered.data(), temporary.size())] = '\0';
   this->Files.push_back({ temporary, path.string() });
   NumberOfRegistered = static_cast<int>(this->Files.size());
   FILE* const file = std::fopen(temporary.c_str(), "wbx");

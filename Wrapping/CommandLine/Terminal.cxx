@@ -39,7 +39,7 @@ struct Watched
   std::string Task;
 };
 
-void ShowWatched(vtkObject* caller, unsigned long, void* data, void*)
+void ShowWatched(vtkObject* caller, unsigned long /*event*/, void* data, void* /*callData*/)
 {
   const auto* watched = static_cast<const Watched*>(data);
   watched->Screen->ShowProgress(watched->Task, static_cast<vtkAlgorithm*>(caller)->GetProgress());
