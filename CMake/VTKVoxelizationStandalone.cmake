@@ -21,7 +21,7 @@ set(program_components
 set(test_components
   ${program_components}
   CommonTransforms FiltersModeling FiltersSources ImagingHybrid ImagingStencil
-  TestingCore TestingRendering)
+  RenderingOpenGL2 TestingCore TestingRendering)
 set(wrapping_components
   Python WrappingPythonCore WrappingTools)
 
