@@ -874,6 +874,7 @@ class TestBadInput(ProgramTest):
             points[3] = (value, 0.0, 0.0)
             self.refuse(name + ".ply", ply_binary(points, triangles), "NaN or infinite")
             self.refuse(name + ".stl", stl_binary(points, triangles), "NaN or infinite")
+            self.refuse(name + "-text.stl", stl_text(points, triangles))
 
     def test_other_data(self):
         image = vtkImageData()

@@ -478,6 +478,13 @@ private:
   Counts Seen{};
   std::int64_t LineNumber = 0;
 };
+
+/// Of a float whose bytes come in the order of their weight.
+bool IsFinite(const unsigned char* bytes)
+{
+  const bool hasHighestExponent = (bytes[3] & 0x7F) == 0x7F && (bytes[2] & 0x80) != 0;
+  return !hasHighestExponent;
+}
 }
 
 void MeshFileCheck::CheckSTL(const std::string& file)
@@ -501,6 +508,21 @@ void MeshFileCheck::CheckSTL(const std::string& file)
   {
     RefuseLength(
       file, "its number of triangles, " + std::to_string(triangles) + ",", promised, size);
+  }
+
+  // VTK reads to the end of the file; of points that are no numbers only some versions complain.
+  constexpr std::size_t normalBytes = 12;
+  constexpr std::size_t pointsEnd = 48;
+  std::array<unsigned char, triangleBytes> record;
+  for (std::uint64_t i = 0; stream.read(reinterpret_cast<char*>(record.data()), record.size()); ++i)
+  {
+    for (std::size_t byte = normalBytes; byte < pointsEnd; byte += 4)
+    {
+      if (!IsFinite(&record[byte]))
+      {
+        Refuse(file, "triangle " + std::to_string(i) + " has points that are NaN or infinite");
+      }
+    }
   }
 }
 

@@ -14,7 +14,7 @@
 
 namespace MeshFileCheck
 {
-/// A binary file is as long as its number of triangles says; a text closes what it opens.
+/// A binary file is as long as its number of triangles says, and its points are finite.
 void CheckSTL(const std::string& file);
 
 /// The header declares points and faces, and the file holds all of them.
