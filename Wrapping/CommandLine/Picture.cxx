@@ -409,8 +409,10 @@ vtkSmartPointer<vtkImageData> Render(vtkRenderWindow* window, const std::array<i
   grabber->SetInput(window);
   grabber->ReadFrontBufferOff();
   grabber->ShouldRerenderOff();
+  grabber->Update();
+  // As data, for the pipeline of VTK 9.1 does not know the spacing of what was grabbed.
   vtkNew<vtkImageShrink3D> shrink;
-  shrink->SetInputConnection(grabber->GetOutputPort());
+  shrink->SetInputData(grabber->GetOutput());
   shrink->SetShrinkFactors(Supersampling, Supersampling, 1);
   shrink->AveragingOn();
   shrink->Update();
