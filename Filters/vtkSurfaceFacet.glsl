@@ -26,6 +26,7 @@ struct Facet
   dvec2 Slope;
   double Height;
   double Uncertainty;
+  uint Triangle;
   int Axis;
   ivec3 Base;
   // The voxels of the box that the triangle's bounds overlap, half open.
@@ -84,6 +85,7 @@ bool facetOf(uint triangle, out Facet f)
   dvec3 b = indexOf(stored.B);
   dvec3 c = indexOf(stored.C);
   precise dvec3 normal = cross(b - a, c - a);
+  f.Triangle = triangle;
   f.Axis = dominantAxis(normal);
   f.Normal = turned(normal, f.Axis);
   a = turned(a, f.Axis);

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfacePass.h"
 
+#include "vtkCellArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSlicemap.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkVoxelGrid.h"
@@ -19,7 +23,12 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <random>
+#include <utility>
 
 using vtkVoxelGL::Program;
 
@@ -27,6 +36,14 @@ namespace
 {
 constexpr std::int64_t WordBytes = 4;
 constexpr GLuint SlicemapBinding = 0;
+
+// The search for a cutoff.
+constexpr float SmallestCutoffArea = 64.0f;
+constexpr float LargestCutoffArea = 65536.0f;
+constexpr int SearchSteps = 5;
+constexpr int SearchRepetitions = 3;
+constexpr int SearchVoxels = 256;
+constexpr double SearchColumns = 262144.0;
 
 // Windows are squares; an OpenGL renderer of today takes them in one piece.
 constexpr int LargestWindow = 8192;
@@ -51,8 +68,8 @@ std::vector<std::string> GetOverlapSources()
     define("OVERLAP", precision + "Overlap");
     return text + vtkSurfaceOverlapGLSL;
   };
-  return { vtkSurfaceFacetGLSL, instance("Near", "float", "vec"),
-    instance("Far", "double", "dvec"), vtkSurfaceRowsGLSL };
+  return { vtkSurfaceFacetGLSL, instance("Near", "float", "vec"), instance("Far", "double", "dvec"),
+    vtkSurfaceRowsGLSL };
 }
 
 std::array<int, 3> ToArray(const glm::ivec3& v)
@@ -60,32 +77,64 @@ std::array<int, 3> ToArray(const glm::ivec3& v)
   return { v.x, v.y, v.z };
 }
 
-Program::Defines GetDefines(const vtkSurfacePass::Settings& settings)
+/// Triangles in a cube of SearchVoxels, about as many as cover the same number of columns whatever
+/// their area, which is that of their bounds seen along the axis closest to their normal.
+vtkSmartPointer<vtkPolyData> MakeTriangles(float area)
 {
-  Program::Defines defines{ { "SEPARABILITY", std::to_string(settings.Separability) } };
-  if (settings.Effect == vtkSurfacePass::Operation::Clear)
+  std::mt19937 random;
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double side = std::sqrt(area);
+  const int count = std::clamp(static_cast<int>(SearchColumns / area), 16, 4096);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> triangles;
+  for (int i = 0; i < count; ++i)
   {
-    defines["REMOVE"] = "1";
+    const glm::dvec3 corner =
+      (SearchVoxels - side) * glm::dvec3(unit(random), unit(random), unit(random));
+    const double slope = 0.5 * side * unit(random);
+    const int axis = i % 3;
+    vtkIdType ids[3];
+    for (int j = 0; j < 3; ++j)
+    {
+      glm::dvec3 point = corner;
+      point[axis] += j * slope;
+      point[(axis + 1) % 3] += j == 1 ? side : 0.0;
+      point[(axis + 2) % 3] += j == 2 ? side : 0.0;
+      ids[j] = points->InsertNextPoint(&point[0]);
+    }
+    triangles->InsertNextCell(3, ids);
   }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(triangles);
+  return mesh;
+}
+
+Program::Defines GetDefines(
+  const vtkSurfacePass::Settings& settings, const vtkSurfacePass::Visitor& visitor)
+{
+  auto defines = visitor.Defines;
+  defines["SEPARABILITY"] = std::to_string(settings.Separability);
   return defines;
 }
 }
 
-/// Slices of the target that one storage buffer holds, half open, counted from its first slice.
+/// Slices of a slicemap, half open, counted from its first one.
 struct vtkSurfacePass::Slab
 {
+  vtkSlicemap* Slicemap;
   int First;
   int End;
 
-  void SetUniforms(Program& program, vtkSlicemap* target) const
+  void SetUniforms(Program& program) const
   {
-    const vtkVoxelGrid& grid = target->GetGrid();
+    const vtkVoxelGrid& grid = this->Slicemap->GetGrid();
     const glm::ivec3 n = grid.GetDimensions();
     const glm::ivec3 first = grid.GetFirst();
     program.Set("First", ToArray(first + glm::ivec3(0, 0, this->First)));
     program.Set("End", ToArray(first + glm::ivec3(n.x, n.y, this->End)));
     program.Set("GridFirst", ToArray(first));
-    program.Set("WordsPerRow", static_cast<unsigned int>(target->GetWordsPerRow()));
+    program.Set("WordsPerRow", static_cast<unsigned int>(this->Slicemap->GetWordsPerRow()));
     program.Set("RowsPerSlice", static_cast<unsigned int>(n.y));
   }
 };
@@ -111,29 +160,48 @@ bool vtkSurfacePass::Run(
 {
   const int slices = target->GetGrid().GetDimensions().z;
   const int slicesPerSlab = vtkSlicemapSlicesPerSlab(target);
+  Visitor bits;
+  bits.Source = vtkSurfaceBitsGLSL;
+  if (settings.Effect == Operation::Clear)
+  {
+    bits.Defines["REMOVE"] = "1";
+  }
   for (int slice = 0; slice < slices; slice += slicesPerSlab)
   {
     if (!progress(double(slice) / slices))
     {
       return false;
     }
-    this->RunSlab(mesh, target, settings, { slice, std::min(slice + slicesPerSlab, slices) });
+    const Slab slab{ target, slice, std::min(slice + slicesPerSlab, slices) };
+    bits.Bind = [&](Program&)
+    { vtkSlicemapBindSlab(target, SlicemapBinding, slab.First, slab.End - slab.First); };
+    this->VisitSlab(mesh, settings, bits, slab);
   }
   return progress(1.0);
 }
 
-void vtkSurfacePass::RunSlab(
-  const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings, const Slab& slab)
+bool vtkSurfacePass::Visit(const vtkVoxelMesh& mesh, vtkSlicemap* slicemap,
+  const Settings& settings, const Visitor& visitor, const Progress& progress)
 {
-  const vtkVoxelGrid& grid = target->GetGrid();
+  if (!progress(0.0))
+  {
+    return false;
+  }
+  this->VisitSlab(mesh, settings, visitor, { slicemap, 0, slicemap->GetGrid().GetDimensions().z });
+  return progress(1.0);
+}
+
+void vtkSurfacePass::VisitSlab(
+  const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab)
+{
   const bool draws = settings.Large == LargeTriangles::Fragments;
   const bool noneIsLarge = settings.CutoffArea == NoneIsLarge;
   vtkTriangleDispatch::Job job;
   job.Name = "vtkSurfaceVoxels";
   job.Sources = GetOverlapSources();
-  job.Sources.push_back(vtkSurfaceBitsGLSL);
+  job.Sources.push_back(visitor.Source);
   job.Sources.push_back(vtkSurfaceVoxelsGLSL);
-  job.Defines = GetDefines(settings);
+  job.Defines = GetDefines(settings, visitor);
   job.HasTriangleStage = settings.CutoffArea >= 0.0f;
   job.HasTileStage = !draws && !noneIsLarge;
   if (draws)
@@ -144,32 +212,32 @@ void vtkSurfacePass::RunSlab(
     this->Deferred.Upload(0, sizeof(NothingDeferred), NothingDeferred.data());
     this->Deferred.BindBase(GL_SHADER_STORAGE_BUFFER, DeferredBinding);
   }
-  vtkSlicemapBindSlab(target, SlicemapBinding, slab.First, slab.End - slab.First);
   job.SetUniforms = [&](Program& program)
   {
-    slab.SetUniforms(program, target);
+    slab.SetUniforms(program);
     program.Set("CutoffArea", settings.CutoffArea);
+    visitor.Bind(program);
   };
-  this->Dispatch.Run(mesh, grid, job);
+  this->Dispatch.Run(mesh, slab.Slicemap->GetGrid(), job);
   if (draws && !noneIsLarge)
   {
-    this->DrawDeferred(mesh, target, settings, slab);
+    this->DrawDeferred(mesh, settings, visitor, slab);
   }
 }
 
 void vtkSurfacePass::DrawDeferred(
-  const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings, const Slab& slab)
+  const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab)
 {
-  const vtkVoxelGrid& grid = target->GetGrid();
+  const vtkVoxelGrid& grid = slab.Slicemap->GetGrid();
   const vtkColumnAxes axes(2);
-  auto defines = GetDefines(settings);
+  auto defines = GetDefines(settings, visitor);
   defines.merge(vtkTriangleDispatch::GetMeshDefines(mesh, grid, axes));
   std::vector<std::string> fragment{ vtkSlicemapLayoutGLSL, vtkVoxelMeshFetchGLSL };
   for (auto& source : GetOverlapSources())
   {
     fragment.push_back(std::move(source));
   }
-  fragment.push_back(vtkSurfaceBitsGLSL);
+  fragment.push_back(visitor.Source);
   fragment.push_back(vtkSurfaceFragmentGLSL);
   Program& program = vtkVoxelGetProgram(this->Context, "vtkSurfaceFragment", defines,
     { { GL_VERTEX_SHADER, { vtkVoxelMeshFetchGLSL, vtkSurfaceFacetGLSL, vtkSurfaceVertexGLSL } },
@@ -177,7 +245,8 @@ void vtkSurfacePass::DrawDeferred(
     vtkVoxelShaderVersion::StorageBuffers);
   program.Use();
   vtkTriangleDispatch::BindMesh(program, mesh, grid, axes);
-  slab.SetUniforms(program, target);
+  slab.SetUniforms(program);
+  visitor.Bind(program);
 
   const glm::ivec3 n = grid.GetDimensions();
   const int longest = std::max({ n.x, n.y, slab.End - slab.First });
@@ -198,4 +267,60 @@ void vtkSurfacePass::DrawDeferred(
     }
   }
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+float vtkSurfacePass::FindCutoffArea(vtkVoxelContext* context, const vtkVoxelMesh& mesh,
+  const vtkVoxelGrid& grid, LargeTriangles large)
+{
+  if (mesh.EstimateLargestArea(grid.GetWorldToIndex()) < SmallestCutoffArea)
+  {
+    return DefaultCutoffArea;
+  }
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, LargeTriangles>, float> known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  float& area = known[{ this->Context->GetRendererName(), large }];
+  if (area == 0.0f)
+  {
+    area = this->SearchCutoffArea(context, large);
+  }
+  return area;
+}
+
+float vtkSurfacePass::SearchCutoffArea(vtkVoxelContext* context, LargeTriangles large)
+{
+  vtkNew<vtkSlicemap> scratch;
+  scratch->SetContext(context);
+  vtkVoxelGrid grid;
+  grid.Extent = { 0, SearchVoxels - 1, 0, SearchVoxels - 1, 0, SearchVoxels - 1 };
+  if (!scratch->Allocate(grid))
+  {
+    return DefaultCutoffArea;
+  }
+  scratch->GetBuffer().Fill(0);
+  float low = SmallestCutoffArea;
+  float high = LargestCutoffArea;
+  for (int step = 0; step < SearchSteps; ++step)
+  {
+    const float area = std::sqrt(low * high);
+    vtkVoxelMesh mesh;
+    mesh.Update(this->Context, MakeTriangles(area), vtkVoxelMesh::Triangulation::Fans);
+    const auto time = [&](float cutoff)
+    {
+      Settings settings;
+      settings.CutoffArea = cutoff;
+      settings.Large = large;
+      auto best = std::chrono::steady_clock::duration::max();
+      for (int i = 0; i < SearchRepetitions; ++i)
+      {
+        const auto start = std::chrono::steady_clock::now();
+        this->Run(mesh, scratch, settings, [](double) { return true; });
+        glFinish();
+        best = std::min(best, std::chrono::steady_clock::now() - start);
+      }
+      return best;
+    };
+    (time(NoneIsLarge) <= time(AllAreLarge) ? low : high) = area;
+  }
+  return std::sqrt(low * high);
 }

@@ -20,6 +20,7 @@
 #include <limits>
 
 class vtkSlicemap;
+class vtkVoxelContext;
 
 class vtkSurfacePass
 {
@@ -62,13 +63,36 @@ public:
   bool Run(const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings,
     const Progress& progress);
 
+  /// What becomes of each pair of a triangle and a voxel that it overlaps: GLSL with a function
+  /// visit(), see vtkSurfaceFacet.glsl, and what it needs. Storage buffers 2 and 3 and texture
+  /// units 1 to 3 are taken.
+  struct Visitor
+  {
+    std::string Source;
+    vtkVoxelGL::Program::Defines Defines;
+    std::function<void(vtkVoxelGL::Program&)> Bind;
+  };
+
+  /// Visits all pairs on the grid of `slicemap`. False when told to stop. Throws
+  /// std::runtime_error.
+  bool Visit(const vtkVoxelMesh& mesh, vtkSlicemap* slicemap, const Settings& settings,
+    const Visitor& visitor, const Progress& progress);
+
+  /// The cutoff at which both ways take the same time on this renderer: found by a bracketing
+  /// search with triangles made for it when `mesh` first has some that may be large on `grid`, then
+  /// remembered; DefaultCutoffArea as long as it has none. Throws std::runtime_error.
+  float FindCutoffArea(vtkVoxelContext* context, const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
+    LargeTriangles large);
+
 private:
+  float SearchCutoffArea(vtkVoxelContext* context, LargeTriangles large);
+
   struct Slab;
 
-  void RunSlab(
-    const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings, const Slab& slab);
+  void VisitSlab(
+    const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab);
   void DrawDeferred(
-    const vtkVoxelMesh& mesh, vtkSlicemap* target, const Settings& settings, const Slab& slab);
+    const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab);
 
   vtkVoxelGL::Context Context;
   vtkTriangleDispatch Dispatch;

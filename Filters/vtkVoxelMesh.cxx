@@ -32,6 +32,13 @@ using Leaves = std::vector<vtkSmartPointer<vtkPolyData>>;
 constexpr std::size_t BytesOfTriple = 12;
 constexpr vtkIdType SampleSize = 2048;
 
+/// Maps normals that have the length of an area.
+glm::dmat3 GetCofactors(const glm::dmat4& worldToIndex)
+{
+  const glm::dmat3 linear(worldToIndex);
+  return glm::determinant(linear) * glm::transpose(glm::inverse(linear));
+}
+
 vtkVoxelGL::Texture TextureOver(const vtkVoxelGL::Buffer& buffer, GLenum format)
 {
   vtkVoxelGL::Texture texture(buffer.GetContext(), GL_TEXTURE_BUFFER);
@@ -124,6 +131,19 @@ void VisitTriangles(vtkCellArray* cells, bool strips, vtkIdType numberOfPoints, 
   }
 }
 
+void TriangulateExactly(Leaves& leaves)
+{
+  for (auto& leaf : leaves)
+  {
+    vtkNew<vtkTriangleFilter> triangulate;
+    triangulate->PassVertsOff();
+    triangulate->PassLinesOff();
+    triangulate->SetInputData(leaf);
+    triangulate->Update();
+    leaf = triangulate->GetOutput();
+  }
+}
+
 bool MayBeTriangles(vtkCellArray* cells)
 {
   return cells->GetNumberOfConnectivityIds() == 3 * cells->GetNumberOfCells();
@@ -202,17 +222,10 @@ void vtkVoxelMesh::Update(
 
   this->Uploaded.clear();
   this->Context = context;
-  if (triangulation == Triangulation::Exact && !onlyTriangles)
+  this->IsTriangulated = triangulation == Triangulation::Exact && !onlyTriangles;
+  if (this->IsTriangulated)
   {
-    for (auto& leaf : leaves)
-    {
-      vtkNew<vtkTriangleFilter> triangulate;
-      triangulate->PassVertsOff();
-      triangulate->PassLinesOff();
-      triangulate->SetInputData(leaf);
-      triangulate->Update();
-      leaf = triangulate->GetOutput();
-    }
+    TriangulateExactly(leaves);
   }
   this->UploadPoints(leaves);
   this->UploadTriangles(leaves, true);
@@ -220,6 +233,31 @@ void vtkVoxelMesh::Update(
   ++this->NumberOfUploads;
   this->Uploaded = identities;
   this->UploadedAs = triangulation;
+}
+
+void vtkVoxelMesh::VisitLeaves(vtkDataObject* input,
+  const std::function<void(vtkPolyData* leaf, const std::vector<vtkIdType>& cellsOfTriangles)>&
+    visit) const
+{
+  Leaves leaves = GetLeaves(input);
+  if (this->IsTriangulated)
+  {
+    TriangulateExactly(leaves);
+  }
+  for (const auto& leaf : leaves)
+  {
+    std::vector<vtkIdType> cellsOfTriangles;
+    vtkIdType cell = leaf->GetNumberOfVerts() + leaf->GetNumberOfLines();
+    for (vtkCellArray* cells : { leaf->GetPolys(), leaf->GetStrips() })
+    {
+      for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i, ++cell)
+      {
+        const vtkIdType triangles = std::max<vtkIdType>(0, cells->GetCellSize(i) - 2);
+        cellsOfTriangles.insert(cellsOfTriangles.end(), triangles, cell);
+      }
+    }
+    visit(leaf, cellsOfTriangles);
+  }
 }
 
 void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
@@ -450,11 +488,21 @@ void vtkVoxelMesh::SampleAreas(const Leaves& leaves)
   this->AreaOfSample = static_cast<double>(stride);
 }
 
+double vtkVoxelMesh::EstimateLargestArea(const glm::dmat4& worldToIndex) const
+{
+  const glm::dmat3 cofactors = GetCofactors(worldToIndex);
+  double largest = 0.0;
+  for (const glm::dvec3& normal : this->SampledNormals)
+  {
+    const glm::dvec3 area = glm::abs(cofactors * normal);
+    largest = std::max({ largest, area.x, area.y, area.z });
+  }
+  return 2.0 * largest;
+}
+
 glm::dvec3 vtkVoxelMesh::EstimateProjectedAreas(const glm::dmat4& worldToIndex) const
 {
-  // Normals with the length of the area map by the cofactor matrix.
-  const glm::dmat3 linear(worldToIndex);
-  const glm::dmat3 cofactors = glm::determinant(linear) * glm::transpose(glm::inverse(linear));
+  const glm::dmat3 cofactors = GetCofactors(worldToIndex);
   glm::dvec3 areas(0.0);
   for (const glm::dvec3& normal : this->SampledNormals)
   {

@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -46,6 +47,13 @@ public:
   void Update(
     const vtkVoxelGL::Context& context, vtkDataObject* input, Triangulation triangulation);
 
+  /// For each leaf of the input that was uploaded, its points in their order: calls `visit` with
+  /// the leaf as it was triangulated and, for each of its triangles, the cell of the leaf that it
+  /// is of.
+  void VisitLeaves(vtkDataObject* input,
+    const std::function<void(vtkPolyData* leaf, const std::vector<vtkIdType>& cellsOfTriangles)>&
+      visit) const;
+
   std::uint32_t GetNumberOfTriangles() const { return this->NumberOfTriangles; }
   bool HasLowPart() const { return this->LowPoints; }
 
@@ -56,6 +64,10 @@ public:
   /// Area of all triangles projected along each of the three axes of index coordinates, in squares
   /// of voxels; estimated from a fixed sample of the triangles.
   glm::dvec3 EstimateProjectedAreas(const glm::dmat4& worldToIndex) const;
+
+  /// Area of the bounds of the largest triangle of that sample, seen along the axis closest to its
+  /// normal.
+  double EstimateLargestArea(const glm::dmat4& worldToIndex) const;
 
   /// Largest coordinate, in world units and without sign.
   double GetLargestCoordinate() const { return this->LargestCoordinate; }
@@ -85,6 +97,7 @@ private:
   vtkVoxelGL::Context Context;
   std::vector<Identity> Uploaded;
   Triangulation UploadedAs = Triangulation::Fans;
+  bool IsTriangulated = false;
   vtkVoxelGL::Buffer Points;
   vtkVoxelGL::Buffer PointsLow;
   vtkVoxelGL::Buffer Triangles;

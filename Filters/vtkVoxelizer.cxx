@@ -366,14 +366,15 @@ int vtkVoxelizer::RequestUpdateExtent(
   return 1;
 }
 
-void vtkVoxelizer::CheckMemory(const vtkVoxelGrid& grid) const
+void vtkVoxelizer::CheckMemory(const vtkVoxelGrid& grid)
 {
   if (!this->HostOutput)
   {
     return;
   }
   const std::int64_t voxels = grid.GetNumberOfVoxels();
-  const std::int64_t bytes = this->OutputScalarType == VTK_BIT ? (voxels + 7) / 8 : voxels;
+  const std::int64_t bytes = (this->OutputScalarType == VTK_BIT ? (voxels + 7) / 8 : voxels) +
+    voxels * this->GetBytesOfArrays();
   if (this->MemoryLimit == 0 && bytes < CarelessBytes)
   {
     return;
@@ -391,39 +392,38 @@ void vtkVoxelizer::CheckMemory(const vtkVoxelGrid& grid) const
   }
 }
 
-int vtkVoxelizer::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+vtkVoxelGrid vtkVoxelizer::GetRequestedPart(
+  const vtkVoxelGrid& whole, vtkInformation* outputInfo) const
 {
-  vtkDataObject* input = inputs[0]->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT());
-  vtkInformation* outputInfo = outputs->GetInformationObject(0);
-  auto* output = vtkImageData::GetData(outputInfo);
-  output->Initialize();
-  output->GetInformation()->Remove(vtkSlicemap::SLICEMAP());
+  vtkVoxelGrid part = whole;
+  if (outputInfo->Has(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()))
+  {
+    // After a failure the pipeline still has the extent of then, which may exceed that of now.
+    const int* asked = outputInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT());
+    const int pointsMore = this->OutputAttributeType == ATTRIBUTE_CELL ? 1 : 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      int& low = part.Extent[2 * axis];
+      int& high = part.Extent[2 * axis + 1];
+      low = std::max(low, asked[2 * axis]);
+      high = std::min(high, asked[2 * axis + 1] - pointsMore);
+    }
+  }
+  return part;
+}
+
+int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
+  const std::function<bool(const vtkVoxelGrid& whole)>& prepare,
+  const std::function<bool(vtkVoxelMesh& mesh)>& work)
+{
   this->State->NumberOfTriangles = 0;
   this->UsedBackend = BACKEND_AUTO;
   try
   {
-    const auto grid = this->GetCheckedGrid(input);
-    vtkVoxelGrid part = grid;
-    if (outputInfo->Has(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()))
-    {
-      // After a failure the pipeline still has the extent of then, which may exceed that of now.
-      const int* asked = outputInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT());
-      const int pointsMore = this->OutputAttributeType == ATTRIBUTE_CELL ? 1 : 0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        int& low = part.Extent[2 * axis];
-        int& high = part.Extent[2 * axis + 1];
-        low = std::max(low, asked[2 * axis]);
-        high = std::min(high, asked[2 * axis + 1] - pointsMore);
-      }
-    }
-    if (part.IsEmpty())
+    if (!prepare(this->GetCheckedGrid(input)))
     {
       return 1;
     }
-    this->CheckMemory(part);
-
     vtkVoxelContext* context = this->State->Context;
     vtkVoxelContext::Scope scope(context);
     if (!scope)
@@ -438,10 +438,8 @@ int vtkVoxelizer::RequestData(
     this->State->Mesh.Update(context->GetRecord(), input,
       this->NeedsExactTriangulation() ? vtkVoxelMesh::Triangulation::Exact
                                       : vtkVoxelMesh::Triangulation::Fans);
-    vtkSlicemap* slicemap = this->TakeSlicemap();
-    slicemap->SetContext(context);
     this->UsedBackend = backend;
-    if (!this->Voxelize(this->State->Mesh, part, slicemap))
+    if (!work(this->State->Mesh))
     {
       this->State->Slicemap = nullptr;
       return vtkVoxelCompatibility::CheckAbort(this) ? 1 : 0;
@@ -451,16 +449,62 @@ int vtkVoxelizer::RequestData(
       throw std::runtime_error(context->GetErrorMessage());
     }
     this->State->NumberOfTriangles = this->State->Mesh.GetNumberOfTriangles();
-    this->FillOutput(output, slicemap);
   }
   catch (const std::exception& error)
   {
     this->State->Slicemap = nullptr;
-    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }
   return 1;
+}
+
+int vtkVoxelizer::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = inputs[0]->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT());
+  vtkInformation* outputInfo = outputs->GetInformationObject(0);
+  auto* output = vtkImageData::GetData(outputInfo);
+  output->Initialize();
+  output->GetInformation()->Remove(vtkSlicemap::SLICEMAP());
+  vtkVoxelGrid part;
+  const int result = this->RunOnMesh(
+    input,
+    [&](const vtkVoxelGrid& whole)
+    {
+      part = this->GetRequestedPart(whole, outputInfo);
+      if (part.IsEmpty())
+      {
+        return false;
+      }
+      this->CheckMemory(part);
+      return true;
+    },
+    [&](vtkVoxelMesh& mesh)
+    {
+      vtkSlicemap* slicemap = this->TakeSlicemap();
+      slicemap->SetContext(this->State->Context);
+      if (!this->Voxelize(mesh, part, slicemap))
+      {
+        return false;
+      }
+      this->FillOutput(output, slicemap);
+      return !this->HostOutput || this->AddArrays(mesh, part, this->GetVoxelData(output));
+    });
+  if (!this->State->Slicemap)
+  {
+    output->Initialize();
+  }
+  return result;
+}
+
+vtkDataSetAttributes* vtkVoxelizer::GetVoxelData(vtkImageData* output) const
+{
+  if (this->OutputAttributeType == ATTRIBUTE_CELL)
+  {
+    return output->GetCellData();
+  }
+  return output->GetPointData();
 }
 
 vtkSlicemap* vtkVoxelizer::TakeSlicemap()
@@ -493,9 +537,7 @@ void vtkVoxelizer::FillOutput(vtkImageData* output, vtkSlicemap* slicemap)
     {
       throw std::runtime_error("The result could not be read back from OpenGL.");
     }
-    vtkDataSetAttributes* attributes =
-      cells ? static_cast<vtkDataSetAttributes*>(output->GetCellData()) : output->GetPointData();
-    attributes->SetScalars(array);
+    this->GetVoxelData(output)->SetScalars(array);
   }
   slicemap->AttachTo(output);
 }

@@ -39,8 +39,11 @@
 #include "vtkImageAlgorithm.h"
 #include "vtkVoxelizationModule.h" // for export macro
 
-#include <memory> // for the implementation
+#include <cstdint>    // for 64-bit sizes
+#include <functional> // for RunOnMesh
+#include <memory>     // for the implementation
 
+class vtkDataSetAttributes;
 class vtkImageData;
 class vtkRenderWindow;
 class vtkSlicemap;
@@ -265,6 +268,29 @@ protected:
   virtual bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) = 0;
 
   /**
+   * Adds more arrays to the voxels of `grid`, which have been filled and read back, in the current
+   * context. Returns false after having reported an error, or when aborted.
+   */
+  virtual bool AddArrays(
+    vtkVoxelMesh& vtkNotUsed(mesh), const vtkVoxelGrid& vtkNotUsed(grid), vtkDataSetAttributes*)
+  {
+    return true;
+  }
+
+  /**
+   * Bytes a voxel that these arrays take.
+   */
+  virtual std::int64_t GetBytesOfArrays() { return 0; }
+
+  /**
+   * The frame of every run: `prepare` gets the checked grid of the whole output, before any work,
+   * and may return false when there is nothing to do; `work` finds the mesh on the GPU and the
+   * context current. Exceptions become one error. Returns what a request returns.
+   */
+  int RunOnMesh(vtkDataObject* input, const std::function<bool(const vtkVoxelGrid& whole)>& prepare,
+    const std::function<bool(vtkVoxelMesh& mesh)>& work);
+
+  /**
    * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into
    * fans, which keep parity and winding also for concave polygons, and are cheaper.
    */
@@ -299,9 +325,11 @@ private:
   vtkVoxelGrid GridFromBox(const double box[6]) const;
   vtkVoxelGrid GetWholeGrid(vtkDataObject* input) const;
   vtkVoxelGrid GetCheckedGrid(vtkDataObject* input) const;
-  void CheckMemory(const vtkVoxelGrid& grid) const;
+  vtkVoxelGrid GetRequestedPart(const vtkVoxelGrid& whole, vtkInformation* outputInfo) const;
+  void CheckMemory(const vtkVoxelGrid& grid);
   vtkSlicemap* TakeSlicemap();
   void FillOutput(vtkImageData* output, vtkSlicemap* slicemap);
+  vtkDataSetAttributes* GetVoxelData(vtkImageData* output) const;
 
   int SampleDimensions[3] = { 64, 64, 64 };
   int Resolution = 0;

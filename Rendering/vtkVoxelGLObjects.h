@@ -272,6 +272,19 @@ public:
   ///@}
 
   /**
+   * Interpolates between pixels and repeats beyond the edges, as surfaces are textured. Uses
+   * texture unit 0.
+   */
+  void FilterAndRepeat()
+  {
+    this->Bind(0);
+    glTexParameteri(this->Target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(this->Target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(this->Target, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(this->Target, GL_TEXTURE_WRAP_T, GL_REPEAT);
+  }
+
+  /**
    * Lets shaders read the buffer through this texture, whose target is GL_TEXTURE_BUFFER.
    */
   void AttachBuffer(GLenum internalFormat, const Buffer& buffer)
