@@ -6,10 +6,14 @@
 // - the result does not depend on how a mesh is stored, on the threads, or on the grid's extent;
 //   it depends on the axis at the surface alone; no closed mesh leaks;
 // - distances and touched voxels are those of brute force and of polygon clipping;
+// - thin voxels are those of exact arithmetic and of hand, and touched; thin surfaces separate over
+//   faces, touched ones over corners;
+// - floods go over faces, edges and corners as told;
 // - the comparison finds single differences, leaks and images that do not fit.
 
 #include "VoxelComparison.h"
 #include "VoxelExactInside.h"
+#include "VoxelFlood.h"
 #include "VoxelReference.h"
 #include "VoxelSurfaceReference.h"
 #include "VoxelTestMeshes.h"
@@ -30,6 +34,7 @@
 #include <iostream>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -605,6 +610,316 @@ bool TestSurfaceReference()
   return ok;
 }
 
+using Integers = std::array<std::int64_t, 3>;
+
+/// Twice the area of a triangle as seen along an axis, signed.
+std::int64_t AreaAlong(int axis, const Integers& a, const Integers& b, const Integers& c)
+{
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  return (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+}
+
+Integers NormalOf(const std::array<Integers, 3>& corners)
+{
+  Integers normal;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    normal[axis] = AreaAlong(axis, corners[0], corners[1], corners[2]);
+  }
+  return normal;
+}
+
+/// Thin overlap in exact arithmetic, lengths being counted in quarters of voxels: at least 0 where
+/// all conditions hold, and 0 where one of them is a tie.
+std::int64_t ThinSlack(const std::array<Integers, 3>& corners, const Integers& centre)
+{
+  const Integers normal = NormalOf(corners);
+  std::int64_t slack = std::numeric_limits<std::int64_t>::max();
+  std::int64_t height = 0;
+  std::int64_t reach = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto [low, high] = std::minmax({ corners[0][axis], corners[1][axis], corners[2][axis] });
+    slack = std::min({ slack, centre[axis] + 2 - low, high - centre[axis] + 2 });
+    height += normal[axis] * (centre[axis] - corners[0][axis]);
+    reach = std::max(reach, 2 * std::abs(normal[axis]));
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const Integers& a = corners[edge];
+      const Integers& b = corners[(edge + 1) % 3];
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      const std::int64_t left = AreaAlong(axis, a, b, centre);
+      const std::int64_t inside = normal[axis] > 0 ? left
+        : normal[axis] < 0                         ? -left
+                                                   : -std::abs(left);
+      const std::int64_t edgeReach = 2 * std::max(std::abs(b[u] - a[u]), std::abs(b[v] - a[v]));
+      slack = edgeReach > 0 ? std::min(slack, inside + edgeReach) : slack;
+    }
+  }
+  return reach > 0 ? std::min(slack, reach - std::abs(height)) : slack;
+}
+
+bool TestThinIsExact()
+{
+  bool ok = true;
+  const Grid grid = UnitGrid({ 0, 9, -1, 8, 1, 10 });
+  vtkNew<vtkMinimalStandardRandomSequence> random;
+  random->Initialize(61);
+  for (int number = 0; number < 3000; ++number)
+  {
+    // Coarse points make ties, and triangles that are parallel to axes or without area.
+    const int step = 1 << (number % 5);
+    std::array<Integers, 3> corners;
+    Triangle triangle;
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        corners[corner][axis] = step * std::llround(random->GetNextRangeValue(-8.0, 44.0) / step);
+        triangle[corner][axis] = 0.25 * static_cast<double>(corners[corner][axis]);
+      }
+    }
+    const bool hasArea = NormalOf(corners) != Integers{ 0, 0, 0 };
+    const Volume thin = ThinVoxelsReference(VoxelTestMeshes::FromTriangles({ triangle }), grid, 1);
+    const std::string name = "thin triangle " + std::to_string(number) + ", seed 61";
+    for (std::size_t offset = 0; offset < grid.NumberOfVoxels(); ++offset)
+    {
+      const Voxel voxel = grid.VoxelAt(offset);
+      const std::int64_t slack = ThinSlack(corners, { 4 * voxel[0], 4 * voxel[1], 4 * voxel[2] });
+      const unsigned char touch = thin.Voxels[offset];
+      ok &= CheckEqual(name + ", nearly", (touch & TouchedNearly) != 0, slack >= 0);
+      if (hasArea || slack <= 0)
+      {
+        ok &= CheckEqual(name + ", surely", (touch & TouchedSurely) != 0, slack > 0);
+      }
+    }
+  }
+  return ok;
+}
+
+bool IsSurely(unsigned char touch)
+{
+  return (touch & TouchedSurely) != 0;
+}
+
+/// All voxels where the predicate holds are surely thin, and no others nearly.
+template <typename Predicate>
+bool CheckThin(const std::string& name, const Mesh& mesh, const Grid& grid, Predicate&& predicate)
+{
+  const Volume thin = ThinVoxelsReference(mesh, grid);
+  const Volume expected = VolumeWhere(grid, predicate);
+  const bool ok = ReportBoundary(name, expected, thin);
+  return CheckEqual(name, thin.CountNonZero(), expected.CountNonZero()) &&
+    Report(name,
+      Compare(VolumeWhere(grid, [&](const Voxel& v) { return IsSurely(thin.At(v)); }), expected)) &&
+    ok;
+}
+
+bool TestThinByHand()
+{
+  using VoxelTestMeshes::FromTriangles;
+  bool ok = true;
+  const Grid grid = UnitGrid({ -2, 14, -1, 15, -2, 16 });
+  const auto within = [](int value, int low, int high) { return value >= low && value <= high; };
+
+  ok &= CheckThin("square on voxel centres",
+    FromTriangles({ { { { 2, 3, 4 }, { 6, 3, 4 }, { 6, 8, 4 } } },
+      { { { 2, 3, 4 }, { 6, 8, 4 }, { 2, 8, 4 } } } }),
+    grid, [&](const Voxel& v) { return within(v[0], 2, 6) && within(v[1], 3, 8) && v[2] == 4; });
+  ok &= CheckThin("diagonal wall",
+    FromTriangles({ { { { 2, 2, 2 }, { 6, 6, 2 }, { 6, 6, 6 } } },
+      { { { 2, 2, 2 }, { 6, 6, 6 }, { 2, 2, 6 } } } }),
+    grid, [&](const Voxel& v) { return within(v[0], 2, 6) && v[0] == v[1] && within(v[2], 2, 6); });
+  ok &= CheckThin("edge-on triangle",
+    FromTriangles({ { { { 2, 4, 2 }, { 8, 4, 2 }, { 2, 4, 8 } } } }), grid,
+    [](const Voxel& v) { return v[0] >= 2 && v[1] == 4 && v[2] >= 2 && v[0] + v[2] <= 10; });
+  ok &= CheckThin("diagonal triangle",
+    FromTriangles({ { { { 12, 0, 0 }, { 0, 12, 0 }, { 0, 0, 12 } } } }), grid,
+    [](const Voxel& v) {
+      return std::min({ v[0], v[1], v[2] }) >= 0 && v[0] + v[1] + v[2] == 12;
+    });
+  ok &= CheckThin("segment", FromTriangles({ { { { 2, 5, 5 }, { 6, 5, 5 }, { 4, 5, 5 } } } }), grid,
+    [&](const Voxel& v) { return within(v[0], 2, 6) && v[1] == 5 && v[2] == 5; });
+  ok &= CheckThin("point", FromTriangles({ { { { 3, 4, 5 }, { 3, 4, 5 }, { 3, 4, 5 } } } }), grid,
+    [](const Voxel& v) {
+      return v == Voxel{ 3, 4, 5 };
+    });
+
+  // A square between voxels is in both layers, but surely in neither.
+  const Volume between = ThinVoxelsReference(
+    FromTriangles({ { { { 2, 3, 4.5 }, { 6, 3, 4.5 }, { 6, 8, 4.5 } } } }), grid);
+  ok &= Check("between layers",
+    between.At({ 4, 4, 4 }) == TouchedNearly && between.At({ 4, 4, 5 }) == TouchedNearly);
+
+  // The upright edge is seen as a point: it does not cut the wall off, wherever errors turn it.
+  for (const double error : { 0.0, 1e-12, -1e-12 })
+  {
+    const Mesh wall =
+      FromTriangles({ { { { 2, 2, 2 }, { 5.6, 5.6, 2 }, { 5.6 + error, 5.6 - error, 8 } } } });
+    ok &= CheckThin("wall with an upright edge, error " + std::to_string(1e12 * error), wall, grid,
+      [&](const Voxel& v)
+      {
+        return within(v[0], 2, 6) && v[0] == v[1] && within(v[2], 2, 8) &&
+          6.0 * (v[0] - 2) + 3.0 >= 3.6 * (v[2] - 2);
+      });
+  }
+
+  // The planes of a segment that passes a centre at 0.4 do not all meet the octahedron.
+  const Volume beside =
+    ThinVoxelsReference(FromTriangles({ { { { 2, 2, 4.4 }, { 6, 6, 4.4 }, { 6, 6, 4.4 } } },
+                          { { { 2, 2, 8.2 }, { 6, 6, 8.2 }, { 4, 4, 8.2 } } } }),
+      grid);
+  ok &= Check("beside the segment", beside.At({ 4, 4, 4 }) == TouchedNearly);
+  ok &= Check("at the segment", IsSurely(beside.At({ 4, 4, 8 })));
+  return ok;
+}
+
+/// The flood's voxels that are solid.
+std::size_t CountFloodedSolid(const Volume& barrier, const Volume& solid, int connectivity)
+{
+  const Volume flooded = FloodFromOutside(barrier, connectivity);
+  return VolumeWhere(
+    solid.Grid, [&](const Voxel& v) { return flooded.At(v) != 0 && solid.At(v) != 0; })
+    .CountNonZero();
+}
+
+bool TestSurfacesSeparate()
+{
+  bool ok = true;
+  const Grid grid = UnitGrid({ -4, 24, -4, 25, -4, 26 });
+  std::vector<NamedMesh> meshes = LatticeMeshes();
+  const std::vector<NamedMesh> general = GeneralMeshes();
+  meshes.insert(meshes.end(), general.begin(), general.end());
+  for (const auto& [name, mesh] : meshes)
+  {
+    const Volume touched = TouchedVoxelsReference(mesh, grid);
+    const Volume thin = ThinVoxelsReference(mesh, grid);
+    const Volume outsideTouched =
+      VolumeWhere(grid, [&](const Voxel& v) { return (thin.At(v) & ~touched.At(v)) != 0; });
+    ok &= CheckEqual<std::size_t>("thin, not touched, " + name, outsideTouched.CountNonZero(), 0);
+    if (mesh->GetLength() > 60.0) // reaches out of the grid
+    {
+      continue;
+    }
+    const Volume solid = CrossingParityReference(mesh, grid);
+    ok &= CheckEqual<std::size_t>(
+      "through the thin surface over faces, " + name, CountFloodedSolid(thin, solid, 6), 0);
+    ok &= CheckEqual<std::size_t>(
+      "through the touched voxels over corners, " + name, CountFloodedSolid(touched, solid, 26), 0);
+  }
+
+  const Mesh sphere = VoxelTestMeshes::Sphere({ 10.1, 9.8, 10.2 }, 8.3, 24);
+  const Volume thin = ThinVoxelsReference(sphere, grid);
+  const Volume solid = CrossingParityReference(sphere, grid);
+  const Volume surely = VolumeWhere(grid, [&](const Voxel& v) { return IsSurely(thin.At(v)); });
+  ok &=
+    CheckEqual<std::size_t>("through a sphere over faces", CountFloodedSolid(surely, solid, 6), 0);
+  ok &= Check("over corners a flood fills a thin sphere",
+    CountFloodedSolid(thin, solid, 26) > solid.CountNonZero() / 2);
+  return ok;
+}
+
+/// A flood made plainly: each unset voxel beside a reached one is reached, until nothing changes.
+Volume PlainFlood(const Volume& barrier, int mostSteps)
+{
+  const Grid& grid = barrier.Grid;
+  Volume reached = VolumeWhere(grid, [](const Voxel&) { return false; });
+  const auto isReached = [&](const Voxel& voxel)
+  { return !grid.Contains(voxel) || reached.At(voxel); };
+  const auto hasReachedNeighbour = [&](const Voxel& voxel)
+  {
+    for (int neighbour = 0; neighbour < 27; ++neighbour)
+    {
+      const Voxel step{ neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1 };
+      if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) <= mostSteps &&
+        isReached({ voxel[0] + step[0], voxel[1] + step[1], voxel[2] + step[2] }))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  for (std::size_t before = 1; before != reached.CountNonZero();)
+  {
+    before = reached.CountNonZero();
+    for (std::size_t offset = 0; offset < grid.NumberOfVoxels(); ++offset)
+    {
+      reached.Voxels[offset] =
+        barrier.Voxels[offset] == 0 && hasReachedNeighbour(grid.VoxelAt(offset));
+    }
+  }
+  return reached;
+}
+
+bool TestFlood()
+{
+  bool ok = true;
+  const std::vector<int> connectivities = { 6, 18, 26 };
+
+  // A shell around one voxel, with an opening over a face, an edge, a corner, or none.
+  const Grid grid = UnitGrid({ 3, 7, -1, 3, 0, 4 });
+  const Voxel middle{ 5, 1, 2 };
+  const std::vector<std::pair<Voxel, int>> openings = { { { 4, 1, 2 }, 6 }, { { 4, 1, 1 }, 18 },
+    { { 6, 2, 3 }, 26 }, { middle, 27 } };
+  for (const auto& [opening, needed] : openings)
+  {
+    const Volume shell = VolumeWhere(grid,
+      [&, open = opening](const Voxel& v)
+      {
+        return v != middle && v != open && std::abs(v[0] - middle[0]) <= 1 &&
+          std::abs(v[1] - middle[1]) <= 1 && std::abs(v[2] - middle[2]) <= 1;
+      });
+    for (const int connectivity : connectivities)
+    {
+      const Volume flooded = FloodFromOutside(shell, connectivity);
+      const std::string name =
+        "flood by " + std::to_string(connectivity) + " into the opening " + std::to_string(needed);
+      ok &= CheckEqual(name, flooded.At(middle) != 0, connectivity >= needed);
+      ok &= CheckEqual<std::size_t>(name + ", voxels", flooded.CountNonZero(),
+        5 * 5 * 5 - 27 + (opening != middle) + (connectivity >= needed));
+    }
+  }
+
+  // Halves of a grid that a wall divides are both outside; a full grid is not.
+  const Volume wall = VolumeWhere(grid, [](const Voxel& v) { return v[0] == 5; });
+  const Volume full = VolumeWhere(grid, [](const Voxel&) { return true; });
+  const Volume almost = VolumeWhere(grid, [](const Voxel& v) { return v != Voxel{ 3, 1, 2 }; });
+  for (const int connectivity : connectivities)
+  {
+    ok &= CheckEqual<std::size_t>(
+      "both sides of a wall", FloodFromOutside(wall, connectivity).CountNonZero(), 100);
+    ok &= CheckEqual<std::size_t>("full", FloodFromOutside(full, connectivity).CountNonZero(), 0);
+    ok &= CheckEqual<std::size_t>(
+      "one voxel in the border", FloodFromOutside(almost, connectivity).CountNonZero(), 1);
+  }
+
+  vtkNew<vtkMinimalStandardRandomSequence> random;
+  random->Initialize(62);
+  for (const double density : { 0.5, 0.7, 0.85, 0.93 })
+  {
+    const Volume noise = VolumeWhere(UnitGrid({ -3, 11, 0, 12, 2, 18 }),
+      [&](const Voxel&) { return random->GetNextRangeValue(0.0, 1.0) < density; });
+    for (int steps = 1; steps <= 3; ++steps)
+    {
+      ok &= Report("flood of noise, seed 62, density " + std::to_string(density),
+        Compare(FloodFromOutside(noise, connectivities[steps - 1]), PlainFlood(noise, steps)));
+    }
+  }
+
+  bool isRefused = false;
+  try
+  {
+    FloodFromOutside(full, 8);
+  }
+  catch (const std::invalid_argument&)
+  {
+    isRefused = true;
+  }
+  return Check("connectivity 8 is refused", isRefused) && ok;
+}
+
 /// What `action` prints as errors; it must print one line at least.
 template <typename Action>
 std::string ErrorsOf(Action&& action)
@@ -740,6 +1055,10 @@ int TestVoxelReference(int argc, char* argv[])
   ok &= TestGrids();
   ok &= TestTriangleDistances();
   ok &= TestSurfaceReference();
+  ok &= TestThinIsExact();
+  ok &= TestThinByHand();
+  ok &= TestSurfacesSeparate();
+  ok &= TestFlood();
   ok &= TestComparison();
   return ok ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -80,8 +80,8 @@ bool Report(const std::string& name, const Difference& difference, vtkPolyData* 
  * from these the result has to be
  * - over-conservative: the voxels that are touched, and the others that are solid;
  * - under-conservative: the voxels that are solid and not touched;
- * - boundary: the voxels that are touched.
- * False, and one line that starts with `name`, when it is not.
+ * - boundary: the voxels that are touched; so a surface is checked too, with ThinVoxelsReference
+ * for a thin one. False, and one line that starts with `name`, when it is not.
  */
 bool ReportOverConservative(
   const std::string& name, const Volume& result, const Volume& touched, const Volume& solid);

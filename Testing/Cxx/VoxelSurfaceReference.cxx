@@ -35,6 +35,13 @@ Vector Cross(const Vector& a, const Vector& b)
     DifferenceOfProducts(a[2], b[0], a[0], b[2]), DifferenceOfProducts(a[0], b[1], a[1], b[0]) };
 }
 
+Vector UnitVector(int axis)
+{
+  Vector unit{};
+  unit[axis] = 1.0;
+  return unit;
+}
+
 double DistanceToSegment(const Vector& point, const Vector& a, const Vector& b)
 {
   const Vector direction = b - a;
@@ -148,6 +155,119 @@ private:
   std::array<Vector, 13> Axes;
 };
 
+/// The half space m.(x - p) + 0.5 max|m_k| >= 0: where the octahedron in the voxel at x, of those
+/// points whose offsets from x add up to 0.5 at most, reaches m.(x - p) >= 0.
+class OctahedronHalfSpace
+{
+public:
+  OctahedronHalfSpace(const Vector& normal, const Vector& point)
+    : Normal(normal)
+    , Point(point)
+    , Reach(0.5 * std::max({ std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2]) }))
+    , Size(std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]))
+  {
+  }
+
+  /// Does it hold `centre` when it is moved outwards by `margin` along all axes?
+  bool Holds(const Vector& centre, double margin) const
+  {
+    return Dot(this->Normal, centre - this->Point) + this->Reach + margin * this->Size >= 0.0;
+  }
+
+private:
+  Vector Normal;
+  Vector Point;
+  double Reach;
+  double Size;
+};
+
+/// The thin overlap of one triangle with voxels: each of its conditions is a half space.
+class ThinTest
+{
+public:
+  explicit ThinTest(const Triangle& triangle)
+    : Edges{ triangle[1] - triangle[0], triangle[2] - triangle[1], triangle[0] - triangle[2] }
+    , Corners(triangle)
+  {
+    const Vector normal = Cross(this->Edges[0], this->Edges[1]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->AddBounds(axis);
+      this->AddProjection(axis, normal[axis]);
+    }
+    if (this->HasArea)
+    {
+      this->AddBothSides(normal, triangle[0]);
+    }
+  }
+
+  bool Holds(const Vector& centre, double margin) const
+  {
+    return std::all_of(this->HalfSpaces.begin(), this->HalfSpaces.end(),
+      [&](const OctahedronHalfSpace& space) { return space.Holds(centre, margin); });
+  }
+
+  /// As Holds; without area, the planes through the triangle have to hold `centre` all.
+  bool HoldsInAllPlanes(const Vector& centre, double margin) const
+  {
+    return this->Holds(centre, margin) &&
+      (this->HasArea || this->DistanceToLongestEdge(centre) <= 0.5 / std::sqrt(3.0) + margin);
+  }
+
+private:
+  void AddBothSides(const Vector& normal, const Vector& point)
+  {
+    this->HalfSpaces.emplace_back(normal, point);
+    this->HalfSpaces.emplace_back(Vector{} - normal, point);
+  }
+
+  void AddBounds(int axis)
+  {
+    const auto [low, high] = std::minmax_element(this->Corners.begin(), this->Corners.end(),
+      [axis](const Vector& a, const Vector& b) { return a[axis] < b[axis]; });
+    const Vector inward = UnitVector(axis);
+    this->HalfSpaces.emplace_back(inward, *low);
+    this->HalfSpaces.emplace_back(Vector{} - inward, *high);
+  }
+
+  /// The edges as seen along the axis, where the triangle has `area`, doubled and signed.
+  void AddProjection(int axis, double area)
+  {
+    std::array<Vector, 3> inward;
+    std::array<double, 3> length;
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      inward[edge] = Cross(UnitVector(axis), this->Edges[edge]);
+      length[edge] = std::sqrt(Dot(inward[edge], inward[edge]));
+    }
+    const auto longest = std::max_element(length.begin(), length.end()) - length.begin();
+    if (std::abs(area) <= SureMargin * length[longest])
+    {
+      this->AddBothSides(inward[longest], this->Corners[longest]);
+      return;
+    }
+    this->HasArea = true;
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      this->HalfSpaces.emplace_back(
+        area > 0.0 ? inward[edge] : Vector{} - inward[edge], this->Corners[edge]);
+    }
+  }
+
+  double DistanceToLongestEdge(const Vector& point) const
+  {
+    const auto longest = std::max_element(this->Edges.begin(), this->Edges.end(),
+                           [](const Vector& a, const Vector& b) { return Dot(a, a) < Dot(b, b); }) -
+      this->Edges.begin();
+    return DistanceToSegment(point, this->Corners[longest], this->Corners[(longest + 1) % 3]);
+  }
+
+  std::array<Vector, 3> Edges; ///< each begins at the corner of its number
+  Triangle Corners;
+  std::vector<OctahedronHalfSpace> HalfSpaces;
+  bool HasArea = false;
+};
+
 /// Calls visit(voxel) for the voxels of the range near the triangle, halving ranges that are large.
 template <typename Visitor>
 void VisitNearVoxels(
@@ -181,6 +301,49 @@ void VisitNearVoxels(
   upper[2 * longest] = lower[2 * longest + 1] + 1;
   VisitNearVoxels(test, lower, margin, visit);
   VisitNearVoxels(test, upper, margin, visit);
+}
+
+/// For each voxel the bits that makeClassifier(triangle, boxTest)(centre) gives for any triangle
+/// that touches the voxel grown by `margin`; it may also be asked about voxels a bit farther away.
+template <typename MakeClassifier>
+Volume ClassifyVoxels(
+  vtkPolyData* mesh, const Grid& grid, int threads, double margin, MakeClassifier&& makeClassifier)
+{
+  const IndexMesh triangles(mesh, grid, threads);
+  std::vector<std::atomic<unsigned char>> touched(grid.NumberOfVoxels());
+  ParallelFor(triangles.GetNumberOfTriangles(), 64, threads,
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t cell = begin; cell < end; ++cell)
+      {
+        const Triangle triangle = triangles.GetTriangle(cell);
+        const std::array<int, 6> range = VoxelRange(triangle, 0.5 + margin, grid);
+        if (IsEmpty(range))
+        {
+          continue;
+        }
+        const TriangleBoxTest test(triangle);
+        const auto classify = makeClassifier(triangle, test);
+        VisitNearVoxels(test, range, margin,
+          [&](const Voxel& voxel)
+          {
+            const int touch = classify({ static_cast<double>(voxel[0]),
+              static_cast<double>(voxel[1]), static_cast<double>(voxel[2]) });
+            touched[grid.Offset(voxel)].fetch_or(
+              static_cast<unsigned char>(touch), std::memory_order_relaxed);
+          });
+      }
+    });
+
+  Volume result(grid);
+  std::transform(touched.begin(), touched.end(), result.Voxels.get(),
+    [](const std::atomic<unsigned char>& touch) { return touch.load(std::memory_order_relaxed); });
+  return result;
+}
+
+int MakeTouch(bool nearly, bool surely)
+{
+  return (nearly ? TouchedNearly : 0) | (surely ? TouchedSurely : 0);
 }
 
 /// Voxels in the order of their rows, to find those of a range quickly.
@@ -325,37 +488,29 @@ std::vector<double> DistanceToSurface(
 //------------------------------------------------------------------------------------------------
 Volume TouchedVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads, double nearMargin)
 {
-  const IndexMesh triangles(mesh, grid, threads);
-  std::vector<std::atomic<unsigned char>> touched(grid.NumberOfVoxels());
-  ParallelFor(triangles.GetNumberOfTriangles(), 64, threads,
-    [&](std::int64_t begin, std::int64_t end, int)
+  return ClassifyVoxels(mesh, grid, threads, nearMargin,
+    [nearMargin](const Triangle&, const TriangleBoxTest& test)
     {
-      for (std::int64_t cell = begin; cell < end; ++cell)
+      return [&test, nearMargin](const Vector& centre)
       {
-        const Triangle triangle = triangles.GetTriangle(cell);
-        const std::array<int, 6> range = VoxelRange(triangle, 0.5 + nearMargin, grid);
-        if (IsEmpty(range))
-        {
-          continue;
-        }
-        const TriangleBoxTest test(triangle);
-        VisitNearVoxels(test, range, nearMargin,
-          [&](const Voxel& voxel)
-          {
-            const double distance = test.CubeDistance({ static_cast<double>(voxel[0]),
-              static_cast<double>(voxel[1]), static_cast<double>(voxel[2]) });
-            const int near = distance <= 0.5 + nearMargin ? TouchedNearly : 0;
-            const int sure = distance <= 0.5 - SureMargin ? TouchedSurely : 0;
-            touched[grid.Offset(voxel)].fetch_or(
-              static_cast<unsigned char>(near | sure), std::memory_order_relaxed);
-          });
-      }
+        const double distance = test.CubeDistance(centre);
+        return MakeTouch(distance <= 0.5 + nearMargin, distance <= 0.5 - SureMargin);
+      };
     });
+}
 
-  Volume result(grid);
-  std::transform(touched.begin(), touched.end(), result.Voxels.get(),
-    [](const std::atomic<unsigned char>& touch) { return touch.load(std::memory_order_relaxed); });
-  return result;
+//------------------------------------------------------------------------------------------------
+Volume ThinVoxelsReference(vtkPolyData* mesh, const Grid& grid, int threads, double nearMargin)
+{
+  return ClassifyVoxels(mesh, grid, threads, nearMargin,
+    [nearMargin](const Triangle& triangle, const TriangleBoxTest&)
+    {
+      return [test = ThinTest(triangle), nearMargin](const Vector& centre)
+      {
+        const bool nearly = test.Holds(centre, nearMargin);
+        return MakeTouch(nearly, nearly && test.HoldsInAllPlanes(centre, -SureMargin));
+      };
+    });
 }
 
 }

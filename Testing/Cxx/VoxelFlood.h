@@ -1,0 +1,23 @@
+/**
+ * @file   VoxelFlood.h
+ * @brief  What can be reached from outside past occupied voxels: whether a surface separates.
+ */
+#ifndef VoxelFlood_h
+#define VoxelFlood_h
+
+#include "VoxelReference.h"
+
+namespace VoxelReference
+{
+
+/**
+ * The voxels that a flood from outside reaches, 0 or 1 a voxel. It spreads from unset voxel to
+ * unset voxel, over faces (connectivity 6), edges too (18), or corners too (26); all around the
+ * grid lies one more layer of voxels, which are outside. Throws std::invalid_argument for another
+ * connectivity.
+ */
+Volume FloodFromOutside(const Volume& barrier, int connectivity);
+
+}
+
+#endif
