@@ -358,7 +358,7 @@ vtkHybridSurfaceVoxelizer::Settings vtkHybridSurfaceVoxelizer::GetSettings(
     : vtkSurfacePass::LargeTriangles::Tiles;
   if (this->Strategy == STRATEGY_TRIANGLE)
   {
-    settings.CutoffArea = vtkSurfacePass::NoneIsLarge;
+    settings.CutoffArea = vtkSurfacePass::LargestCutoffArea;
   }
   else if (this->Strategy == STRATEGY_FRAGMENT)
   {

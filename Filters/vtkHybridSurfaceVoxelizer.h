@@ -19,11 +19,12 @@
  * projections within half a voxel of the triangle's inside, along the axis closest to the edge's
  * normal.
  *
- * <b>Strategy.</b> Triangle has one invocation a triangle, which is best for small ones. Fragment
- * spreads each triangle over many: tiles of equal size with the Compute backend, fragments of the
- * dilated triangle, seen along the axis closest to its normal, with the Raster backend. Hybrid does
- * triangles whose bounds cover at most CutoffArea columns of voxels at once and defers the others.
- * The result is the same bit for bit; Auto is Hybrid.
+ * <b>Strategy.</b> Triangle has one invocation a triangle, which is best for small ones; those that
+ * cover more than 8,192 columns of voxels are spread all the same. Fragment spreads each triangle
+ * over many: tiles of equal size with the Compute backend, fragments of the dilated triangle, seen
+ * along the axis closest to its normal, with the Raster backend. Hybrid does triangles whose bounds
+ * cover at most CutoffArea columns of voxels at once and defers the others. The result is the same
+ * bit for bit; Auto is Hybrid.
  *
  * <b>Attributes.</b> Arrays of points or cells named by AddAttribute, and the colours of a texture
  * image, are carried over to the voxels. A triangle has in a voxel the value at its point nearest
@@ -111,11 +112,11 @@ public:
   ///@{
   /**
    * For Hybrid: triangles whose bounds, seen along the axis closest to their normal, cover more
-   * columns of voxels than this are large; in squares of voxels. Negative (default) is automatic:
-   * the value at which both ways take the same time on this renderer, searched for the first time
-   * that triangles of such size come, and remembered as long as the process runs.
+   * columns of voxels than this are large; in squares of voxels, at most 8,192. Negative (default)
+   * is automatic: the value at which both ways take the same time on this renderer, searched for
+   * the first time that triangles of such size come, and remembered as long as the process runs.
    */
-  vtkSetMacro(CutoffArea, double);
+  vtkSetClampMacro(CutoffArea, double, -1.0, 8192.0);
   vtkGetMacro(CutoffArea, double);
   ///@}
 

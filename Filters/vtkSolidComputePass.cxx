@@ -24,6 +24,9 @@ namespace
 constexpr std::int64_t WordBytes = 4;
 constexpr std::int64_t WordsPerQuad = 4;
 
+// Renderers in software end the loops of an invocation after 65,535 turns.
+constexpr int LongestLoop = 65535;
+
 constexpr std::int64_t LargestCounterBytes = std::int64_t(1) << 26;
 
 // Units of textures and indices of storage buffers, as in the shaders.
@@ -83,11 +86,8 @@ bool vtkSolidComputePass::FillParity(
   const glm::ivec3 n = grid.GetDimensions();
   const vtkColumnAxes axes(axis);
   this->StartColumnEnds(target, axes);
-  if (axis == 2)
-  {
-    vtkVoxelGL::Prepare(this->ColumnCarries, this->Context, this->ColumnEnds->GetNumberOfBytes());
-    this->ColumnCarries.Fill(0);
-  }
+  vtkVoxelGL::Prepare(this->ColumnCarries, this->Context, this->ColumnEnds->GetNumberOfBytes());
+  this->ColumnCarries.Fill(0);
   target->GetBuffer().Fill(0);
 
   const int slicesPerSlab = vtkSlicemapSlicesPerSlab(target);
@@ -152,16 +152,23 @@ void vtkSolidComputePass::Scan(vtkSlicemap* target, int axis, const Box& box)
     static_cast<unsigned int>(firstSlice * quadsPerRow * target->GetGrid().GetDimensions().y));
   program.Set("Size", ToArray(size));
   program.Set("QuadsPerRow", static_cast<unsigned int>(quadsPerRow));
-  program.Set("Ends", int(box.Ends));
   program.Set("EndWordsPerRow", static_cast<unsigned int>(this->ColumnEnds->GetWordsPerRow()));
-  if (axis == 2)
-  {
-    this->ColumnCarries.BindBase(GL_SHADER_STORAGE_BUFFER, 2);
-  }
+  // Columns along y begin anew in each slab.
+  const std::int64_t carryBytes = quadsPerRow * WordsPerQuad * WordBytes;
+  this->ColumnCarries.BindRange(GL_SHADER_STORAGE_BUFFER, 2,
+    axis == 1 ? firstSlice * carryBytes : 0, (axis == 1 ? size.z : size.y) * carryBytes);
   const std::int64_t invocations =
     axis == 0 ? std::int64_t(size.y) * size.z : quadsPerRow * (axis == 1 ? size.z : size.y);
-  vtkVoxelDispatch(invocations);
-  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  const int length = axis == 0 ? 1 : size[axis];
+  for (int step = 0; step < length; step += LongestLoop)
+  {
+    const int steps = std::min(LongestLoop, length - step);
+    program.Set("FirstStep", step);
+    program.Set("Steps", steps);
+    program.Set("Ends", int(box.Ends && step + steps == length));
+    vtkVoxelDispatch(invocations);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  }
 }
 
 bool vtkSolidComputePass::FillNonZero(
@@ -173,7 +180,8 @@ bool vtkSolidComputePass::FillNonZero(
   this->StartColumnEnds(target, axes);
   const std::int64_t bytesPerRow = std::int64_t(n.x) * (n.z + 1) * WordBytes;
   const std::int64_t limit = std::min(GetStorageLimit(), LargestCounterBytes);
-  if (bytesPerRow > limit)
+  const std::int64_t turns = axis == 0 ? target->GetWordsPerRow() : n.z;
+  if (bytesPerRow > limit || turns > LongestLoop)
   {
     throw std::runtime_error("The grid with " + grid.Describe() +
       " is too large for the fill rule NonZero. Voxelize in parts, or choose another column axis.");

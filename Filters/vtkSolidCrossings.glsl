@@ -6,8 +6,8 @@
 //
 // COLUMN_AXIS  0, 1 or 2: the columns run along x, y or z. The other two axes are u and v, in the
 //              order of x, y, z; "depth" runs along the column. Index coordinates come as (u, v, depth).
-// TILES        defined in the second stage, where a workgroup does one tile of a large triangle, an
-//              invocation one row of the tile. Otherwise an invocation does one triangle.
+// TILES, UNCUT defined in the stages of large triangles, see vtkVoxelTileQueue.glsl. Otherwise an
+//              invocation does one triangle.
 // WINDING      defined when crossings are counted with their sign instead of toggled.
 //
 // First, End   the box of voxels to fill, in (u, v, depth), index coordinates, half open
@@ -187,30 +187,21 @@ void rectangleOf(Outline t, out ivec2 first, out ivec2 end)
   end.y = boundedCeil(t.Highest.y, First.y, End.y);
 }
 
-#ifdef TILES
+#if defined(TILES) || defined(UNCUT)
 
-void main()
+void doTile(uint triangle, uvec2 tile)
 {
-  for (uint index = gl_WorkGroupID.x; index < numberOfTileItems(); index += gl_NumWorkGroups.x)
+  Outline t = outlineOf(fetchTriangle(triangle));
+  ivec2 first, end;
+  rectangleOf(t, first, end);
+  ivec2 corner = first + ivec2(tile * TILE_SIZE);
+  int v = corner.y + int(gl_LocalInvocationID.x);
+  if (v < end.y && corner.x < end.x)
   {
-    uvec2 item = tileItem(index);
-    Outline t = outlineOf(fetchTriangle(item.x));
-    ivec2 first, end;
-    rectangleOf(t, first, end);
-    uvec2 tiles = tilesOf(first, end);
-    uvec2 range = tilesOfItem(item, tiles.x * tiles.y);
-    for (uint tile = range.x; tile < range.y; ++tile)
+    Span span = spanOfRow(t, v, corner.x, min(corner.x + int(TILE_SIZE), end.x));
+    for (int u = span.First; u < span.End; ++u)
     {
-      ivec2 corner = first + ivec2(uvec2(tile % tiles.x, tile / tiles.x) * TILE_SIZE);
-      int v = corner.y + int(gl_LocalInvocationID.x);
-      if (v < end.y)
-      {
-        Span span = spanOfRow(t, v, corner.x, min(corner.x + int(TILE_SIZE), end.x));
-        for (int u = span.First; u < span.End; ++u)
-        {
-          crossColumn(span, u, v);
-        }
-      }
+      crossColumn(span, u, v);
     }
   }
 }

@@ -10,10 +10,12 @@
 // storage buffer 0 the words of the slab, four a uvec4
 // storage buffer 1 one bit a column as vtkSolidCrossings.glsl leaves it; replaced by the parity of
 //                  all crossings of the column, which is zero for a closed mesh
-// storage buffer 2 (columns along z) the parity at the last slice of the slab before this one; replaced
-//                  by that of this slab. Zero in the first slab.
+// storage buffer 2 (columns along y and z) the parity behind what was scanned of the columns before;
+//                  replaced by that behind what is scanned now. Zero at first.
 //
-// Size is the slab's number of voxels along x, y and z; Ends is true in the last slab of the columns.
+// Size is the slab's number of voxels along x, y and z. Of each column along y and z, Steps voxels from
+// FirstStep on are scanned: renderers in software end loops after 65,535 turns. Ends is true when these are
+// the last ones.
 
 layout(local_size_x = 64) in;
 
@@ -22,6 +24,8 @@ uniform uint FirstQuad;
 uniform ivec3 Size;
 uniform uint QuadsPerRow;
 uniform uint EndWordsPerRow;
+uniform int FirstStep;
+uniform int Steps;
 uniform bool Ends;
 
 layout(std430, binding = 0) buffer Slicemap
@@ -39,7 +43,7 @@ layout(std430, binding = 1) buffer ColumnEnds
   uvec4 Behind[];
 };
 #endif
-#if COLUMN_AXIS == 2
+#if COLUMN_AXIS != 0
 layout(std430, binding = 2) buffer ColumnCarries
 {
   uvec4 Carries[];
@@ -109,24 +113,20 @@ void main()
   uint column = invocation();
 #if COLUMN_AXIS == 1
   uint rows = uint(Size.z);
-  uint texel = FirstQuad + (column / QuadsPerRow * uint(Size.y)) * QuadsPerRow + column % QuadsPerRow;
   uint step = QuadsPerRow;
-  int length = Size.y;
-  uvec4 carry = uvec4(0u);
+  uint texel = FirstQuad + (column / QuadsPerRow * uint(Size.y)) * QuadsPerRow + column % QuadsPerRow;
 #else
   uint rows = uint(Size.y);
-  uint texel = FirstQuad + column;
   uint step = QuadsPerRow * uint(Size.y);
-  int length = Size.z;
+  uint texel = FirstQuad + column;
 #endif
+  texel += uint(FirstStep) * step;
   if (column >= rows * QuadsPerRow)
   {
     return;
   }
-#if COLUMN_AXIS == 2
   uvec4 carry = Carries[column];
-#endif
-  for (int i = 0; i < length; ++i, texel += step)
+  for (int i = 0; i < Steps; ++i, texel += step)
   {
     uvec4 toggles = texelFetch(Quads, int(texel));
     if (carry != uvec4(0u))
@@ -135,9 +135,7 @@ void main()
     }
     carry ^= toggles;
   }
-#if COLUMN_AXIS == 2
   Carries[column] = carry;
-#endif
   if (Ends)
   {
     Behind[column] ^= carry;

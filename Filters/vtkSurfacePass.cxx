@@ -39,7 +39,6 @@ constexpr GLuint SlicemapBinding = 0;
 
 // The search for a cutoff.
 constexpr float SmallestCutoffArea = 64.0f;
-constexpr float LargestCutoffArea = 65536.0f;
 constexpr int SearchSteps = 5;
 constexpr int SearchRepetitions = 3;
 constexpr int SearchVoxels = 256;
@@ -195,7 +194,6 @@ void vtkSurfacePass::VisitSlab(
   const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab)
 {
   const bool draws = settings.Large == LargeTriangles::Fragments;
-  const bool noneIsLarge = settings.CutoffArea == NoneIsLarge;
   vtkTriangleDispatch::Job job;
   job.Name = "vtkSurfaceVoxels";
   job.Sources = GetOverlapSources();
@@ -203,7 +201,7 @@ void vtkSurfacePass::VisitSlab(
   job.Sources.push_back(vtkSurfaceVoxelsGLSL);
   job.Defines = GetDefines(settings, visitor);
   job.HasTriangleStage = settings.CutoffArea >= 0.0f;
-  job.HasTileStage = !draws && !noneIsLarge;
+  job.HasTileStage = !draws;
   if (draws)
   {
     job.Defines["DEFER_TO_FRAGMENTS"] = "1";
@@ -215,11 +213,11 @@ void vtkSurfacePass::VisitSlab(
   job.SetUniforms = [&](Program& program)
   {
     slab.SetUniforms(program);
-    program.Set("CutoffArea", settings.CutoffArea);
+    program.Set("CutoffArea", std::min(settings.CutoffArea, LargestCutoffArea));
     visitor.Bind(program);
   };
   this->Dispatch.Run(mesh, slab.Slicemap->GetGrid(), job);
-  if (draws && !noneIsLarge)
+  if (draws)
   {
     this->DrawDeferred(mesh, settings, visitor, slab);
   }
@@ -320,7 +318,7 @@ float vtkSurfacePass::SearchCutoffArea(vtkVoxelContext* context, LargeTriangles 
       }
       return best;
     };
-    (time(NoneIsLarge) <= time(AllAreLarge) ? low : high) = area;
+    (time(LargestCutoffArea) <= time(AllAreLarge) ? low : high) = area;
   }
   return std::sqrt(low * high);
 }

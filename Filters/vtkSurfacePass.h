@@ -17,7 +17,6 @@
 #include "vtkTriangleDispatch.h"
 
 #include <cstdint>
-#include <limits>
 
 class vtkSlicemap;
 class vtkVoxelContext;
@@ -40,8 +39,9 @@ public:
     Clear
   };
 
-  /// CutoffArea: triangles whose bounds have more columns of voxels are large.
-  static constexpr float NoneIsLarge = std::numeric_limits<float>::max();
+  /// CutoffArea: triangles whose bounds have more columns of voxels are large. One invocation does
+  /// no more than LargestCutoffArea, since renderers in software end its loops after 65,535 turns.
+  static constexpr float LargestCutoffArea = 8192.0f;
   static constexpr float AllAreLarge = -1.0f;
 
   struct Settings

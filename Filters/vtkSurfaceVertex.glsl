@@ -1,7 +1,7 @@
 // Draws each deferred triangle seen along the axis that its normal is closest to, dilated so that all
 // columns it may touch have their centres inside: Rauwendaal 2012, section 3.2, "Conservative
 // Rasterization". Six vertices a triangle and no attributes; slim triangles, whose dilated corners would
-// lie far away, are drawn as the rectangle of their bounds.
+// lie far away, are drawn as a rectangle along their longest edge.
 //
 // Follows vtkVoxelMeshFetch.glsl and vtkSurfaceFacet.glsl.
 //
@@ -42,17 +42,33 @@ vec2 dilated(vec2 corner, vec2 from, vec2 to)
   return corner + DILATION / sineOf(from, to) * (from - to);
 }
 
-float largestOf(vec2 v)
-{
-  return max(abs(v.x), abs(v.y));
-}
-
 // Corner 0 to 5 of the two triangles that make a rectangle.
 vec2 cornerOfRectangle(vec2 low, vec2 high, int corner)
 {
   bool right = corner == 1 || corner == 2 || corner == 4;
   bool upper = corner == 2 || corner == 4 || corner == 5;
   return vec2(right ? high.x : low.x, upper ? high.y : low.y);
+}
+
+// A corner of the dilated rectangle around the triangle that lies along its longest edge.
+vec2 cornerAlong(vec2 a, vec2 b, vec2 c, int corner)
+{
+  vec2 longest = b - a;
+  longest = length(c - b) > length(longest) ? c - b : longest;
+  longest = length(a - c) > length(longest) ? a - c : longest;
+  vec2 along = length(longest) > 0.0 ? normalize(longest) : vec2(1.0, 0.0);
+  vec2 across = vec2(-along.y, along.x);
+  vec3 s = vec3(dot(a, along), dot(b, along), dot(c, along));
+  vec3 t = vec3(dot(a, across), dot(b, across), dot(c, across));
+  vec2 low = vec2(min(s.x, min(s.y, s.z)), min(t.x, min(t.y, t.z))) - DILATION;
+  vec2 high = vec2(max(s.x, max(s.y, s.z)), max(t.x, max(t.y, t.z))) + DILATION;
+  vec2 place = cornerOfRectangle(low, high, corner);
+  return along * place.x + across * place.y;
+}
+
+float largestOf(vec2 v)
+{
+  return max(abs(v.x), abs(v.y));
 }
 
 void main()
@@ -74,10 +90,10 @@ void main()
   vec2 ca = normalize(a - c);
   float sine = min(sineOf(ca, ab), min(sineOf(ab, bc), sineOf(bc, ca)));
   float reach = max(largestOf(a), max(largestOf(b), largestOf(c)));
-  if (sine > SMALLEST_SINE && reach < LARGEST_COORDINATE)
+  vec2 corners[3] = vec2[3](dilated(a, ca, ab), dilated(b, ab, bc), dilated(c, bc, ca));
+  if (reach < LARGEST_COORDINATE)
   {
-    vec2 corners[3] = vec2[3](dilated(a, ca, ab), dilated(b, ab, bc), dilated(c, bc, ca));
-    position = corners[min(corner, 2)];
+    position = sine > SMALLEST_SINE ? corners[min(corner, 2)] : cornerAlong(a, b, c, corner);
   }
   gl_Position = vec4(2.0 * position / vec2(WindowSize) - 1.0, 0.0, 1.0);
 }

@@ -6,10 +6,10 @@
 //
 // In the first stage an invocation does one triangle: a small one at once, unless it wants double precision,
 // while others wait for a later stage:
-//   TRIANGLES  defined: an invocation does a small triangle in double precision
-//   TILES      defined: a workgroup does a tile of a large triangle, an invocation a row of the tile
-//   fragments  with DEFER_TO_FRAGMENTS defined in the first stage, storage buffer 3 begins with the
-//              arguments of an indirect draw, six vertices a large triangle, and goes on with their ids
+//   TRIANGLES        defined: an invocation does a small triangle in double precision
+//   TILES and UNCUT  defined: a workgroup does a tile of a large triangle, an invocation a row of the tile
+//   fragments        with DEFER_TO_FRAGMENTS defined in the first stage, storage buffer 3 begins with the
+//                    arguments of an indirect draw, six vertices a large triangle, then come their ids
 // The stages are there because renderers in software run all of a shader, whatever its conditions and returns.
 //
 // CutoffArea triangles whose bounds have more columns than this are large; negative: all are
@@ -27,7 +27,7 @@ layout(std430, binding = 3) buffer Deferred
 };
 #endif
 
-#ifndef TILES
+#if !defined(TILES) && !defined(UNCUT)
 
 #ifdef TRIANGLES
 #define TRIANGLE_OVERLAP FarOverlap
@@ -57,35 +57,25 @@ void visitTriangle(Facet f, TRIANGLE_OVERLAP overlap)
 
 #endif
 
-#if defined(TILES)
+#if defined(TILES) || defined(UNCUT)
 
-void main()
+void doTile(uint triangle, uvec2 tile)
 {
-  for (uint index = gl_WorkGroupID.x; index < numberOfTileItems(); index += gl_NumWorkGroups.x)
-  {
-    uvec2 item = tileItem(index);
-    Facet f;
-    facetOf(item.x, f);
-    uvec2 tiles = tilesOf(f.First.xy, f.End.xy);
-    uvec2 range = tilesOfItem(item, tiles.x * tiles.y);
-    for (uint tile = range.x; tile < range.y; ++tile)
-    {
-      ivec2 corner = f.First.xy + ivec2(uvec2(tile % tiles.x, tile / tiles.x) * TILE_SIZE);
-      int v = corner.y + int(gl_LocalInvocationID.x);
-      visitRow(f, v, corner.x, v < f.End.y ? min(corner.x + int(TILE_SIZE), f.End.x) : corner.x);
-    }
-  }
+  Facet f;
+  facetOf(triangle, f);
+  ivec2 corner = f.First.xy + ivec2(tile * TILE_SIZE);
+  int v = corner.y + int(gl_LocalInvocationID.x);
+  visitRow(f, v, corner.x, v < f.End.y ? min(corner.x + int(TILE_SIZE), f.End.x) : corner.x);
 }
 
 #elif defined(TRIANGLES)
 
 void main()
 {
-  uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-  for (uint index = gl_GlobalInvocationID.x; index < NumberOfWaiting; index += stride)
+  uint triangle;
+  Facet f;
+  if (waitingTriangle(triangle) && facetOf(triangle, f))
   {
-    Facet f;
-    facetOf(waitingTriangle(index), f);
     FarOverlap overlap;
     setUpOverlap(overlap, f, Margin);
     visitTriangle(f, overlap);

@@ -23,9 +23,12 @@ namespace
 // As in vtkVoxelTileQueue.glsl.
 constexpr std::size_t QueueCapacity = 262144;
 constexpr std::size_t QueueItemBytes = 8;
-constexpr std::array<std::uint32_t, 10> EmptyQueue{ 0, 1, 1, 0, 1, 1, 0, 0, 0, 0 };
+constexpr std::size_t QueueHeaderWords = 12;
+constexpr std::size_t WordBytes = 4;
+constexpr int TileSize = 64;
 constexpr GLintptr TileGroupsOffset = 0;
-constexpr GLintptr TriangleGroupsOffset = 12;
+constexpr GLintptr UncutGroupsOffset = 12;
+constexpr GLintptr TriangleGroupsOffset = 24;
 constexpr GLuint QueueBinding = 2;
 
 constexpr unsigned int MeshUnit = 1;
@@ -77,6 +80,13 @@ double GetLargestTerms(const vtkVoxelMesh& mesh, const glm::dmat4& indexFromWorl
   return largest;
 }
 
+/// Tiles along the longest axis: no triangle has more on either of its own.
+std::uint32_t TilesOfGrid(const vtkVoxelGrid& grid)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  return static_cast<std::uint32_t>((std::max({ n.x, n.y, n.z }) + TileSize) / TileSize + 1);
+}
+
 double GetMargin(double largestTerms)
 {
   constexpr double smallest = 1e-6;
@@ -118,8 +128,12 @@ void vtkTriangleDispatch::BindMesh(
 void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Job& job)
 {
   const std::size_t items = QueueCapacity + mesh.GetNumberOfTriangles();
-  vtkVoxelGL::Prepare(this->Queue, this->Context, sizeof(EmptyQueue) + items * QueueItemBytes);
-  this->Queue.Upload(0, sizeof(EmptyQueue), EmptyQueue.data());
+  vtkVoxelGL::Prepare(
+    this->Queue, this->Context, QueueHeaderWords * WordBytes + items * QueueItemBytes);
+  const std::uint32_t tiles = TilesOfGrid(grid);
+  const std::array<std::uint32_t, QueueHeaderWords> empty{ 0, 1, 1, tiles, tiles, 0, 0, 1, 1, 0, 0,
+    0 };
+  this->Queue.Upload(0, sizeof(empty), empty.data());
   this->Queue.BindBase(GL_SHADER_STORAGE_BUFFER, QueueBinding);
 
   std::vector<std::string> sources{ vtkSlicemapLayoutGLSL, vtkVoxelMeshFetchGLSL,
@@ -154,6 +168,7 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   if (job.HasTileStage)
   {
     runStage("TILES", TileGroupsOffset);
+    runStage("UNCUT", UncutGroupsOffset);
   }
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }

@@ -5,9 +5,10 @@
  * Private header: compute shaders over the triangles of a mesh, balanced for tiny and huge ones.
  *
  * The first stage has one invocation a triangle. It may queue large triangles as tiles of equal
- * size (vtkVoxelTileQueue.glsl), for which the stage with TILES defined has one workgroup each, and
- * triangles that want other code, for which the stage with TRIANGLES defined has one invocation
- * each. The source is the same, and the GPU decides how many there are. Needs OpenGL 4.3.
+ * size (vtkVoxelTileQueue.glsl), for which the stages with TILES and UNCUT defined have one
+ * workgroup each, and triangles that want other code, for which the stage with TRIANGLES defined
+ * has one invocation each. The source is the same, and the GPU decides how many there are. Needs
+ * OpenGL 4.3.
  */
 
 #ifndef vtkTriangleDispatch_h

@@ -1,83 +1,105 @@
 // Triangles that wait for a later stage: large ones cut into tiles of columns, equal pieces of work, others as
-// they are.
+// they are. An invocation never does more than a row of some tiles, or one small triangle: renderers in software
+// end the loops of an invocation after 65,535 turns in all.
 //
-// TileQueue (storage buffer 2) begins with the arguments of two indirect dispatches, for the tiles, a
-// workgroup each, and for the triangles, an invocation each. Items hold
-//   from 0               (triangle, tile), where tile counts the TILE_SIZE x TILE_SIZE tiles of the rectangle
-//                        of columns that the triangle may cover, row by row
-//   from QUEUE_CAPACITY  (triangle, ALL_TILES), triangles for whose tiles no room was left
-//   back from the end    (triangle, ALL_TILES), triangles to be done by one invocation
+// TileQueue (storage buffer 2) begins with the arguments of three indirect dispatches:
+//   TILES      a workgroup for each tile that is in the queue, or several when there are many
+//   UNCUT      a workgroup for each tile (x, y) of the grid and each triangle z that was left uncut
+//   TRIANGLES  an invocation for each waiting triangle
+// Items hold
+//   from 0               (triangle, tile), where tile is y << 16 | x in the rectangle of TILE_SIZE x TILE_SIZE
+//                        columns that the triangle may cover
+//   from QUEUE_CAPACITY  (triangle, unused), triangles for whose tiles no room was left
+//   back from the end    (triangle, unused), triangles to be done by one invocation
 // with as many items behind QUEUE_CAPACITY as there are triangles, each of which waits once at most.
+//
+// The shader that works on tiles defines doTile(), an invocation a row; main() of TILES and UNCUT is here.
 
 const uint TILE_SIZE = 64u;
 const uint MAX_GROUPS = 32768u;
 const uint QUEUE_CAPACITY = 262144u;
-const uint ALL_TILES = 0xffffffffu;
-const uint NO_TILE = 0xfffffffeu;
+const uint MAX_TILES = 16384u;
+const uint NO_TILE = 0xffffffffu;
 
 layout(std430, binding = 2) buffer TileQueue
 {
   uint TileGroups[3];
+  uint UncutGroups[3];
   uint TriangleGroups[3];
   uint NumberOfTiles;
   uint NumberOfUncut;
   uint NumberOfWaiting;
-  uint Unused;
   uvec2 Items[];
 };
-
-uvec2 tilesOf(ivec2 first, ivec2 end)
-{
-  return (uvec2(end - first) + TILE_SIZE - 1u) / TILE_SIZE;
-}
 
 void enqueueTriangle(uint triangle)
 {
   uint index = atomicAdd(NumberOfWaiting, 1u);
-  Items[uint(Items.length()) - 1u - index] = uvec2(triangle, ALL_TILES);
-  atomicMax(TriangleGroups[0], min(index / gl_WorkGroupSize.x + 1u, MAX_GROUPS));
+  Items[uint(Items.length()) - 1u - index] = uvec2(triangle, 0u);
+  uint group = index / gl_WorkGroupSize.x;
+  atomicMax(TriangleGroups[0], min(group + 1u, MAX_GROUPS));
+  atomicMax(TriangleGroups[1], group / MAX_GROUPS + 1u);
 }
 
-uint waitingTriangle(uint index)
+// False for invocations that have none.
+bool waitingTriangle(out uint triangle)
 {
-  return Items[uint(Items.length()) - 1u - index].x;
+  uint group = gl_WorkGroupID.y * MAX_GROUPS + gl_WorkGroupID.x;
+  uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+  bool exists = index < NumberOfWaiting;
+  triangle = exists ? Items[uint(Items.length()) - 1u - index].x : 0u;
+  return exists;
 }
 
 void enqueueTiles(uint triangle, ivec2 first, ivec2 end)
 {
-  uvec2 tiles = tilesOf(first, end);
+  uvec2 tiles = (uvec2(end - first) + TILE_SIZE - 1u) / TILE_SIZE;
   uint count = tiles.x * tiles.y;
   // The counter is not added to once it is too high, so that it never overflows.
-  uint begin = NumberOfTiles < QUEUE_CAPACITY ? atomicAdd(NumberOfTiles, count) : QUEUE_CAPACITY;
+  bool mayFit = count <= MAX_TILES && NumberOfTiles < QUEUE_CAPACITY;
+  uint begin = mayFit ? atomicAdd(NumberOfTiles, count) : QUEUE_CAPACITY;
   bool fits = begin + count <= QUEUE_CAPACITY;
   uint stop = min(begin + count, QUEUE_CAPACITY);
   for (uint item = begin; item < stop; ++item)
   {
-    Items[item] = uvec2(triangle, fits ? item - begin : NO_TILE);
+    uint tile = item - begin;
+    Items[item] = uvec2(triangle, fits ? tile / tiles.x << 16 | tile % tiles.x : NO_TILE);
   }
-  uint uncut = fits ? 0u : atomicAdd(NumberOfUncut, 1u) + 1u;
+  atomicMax(TileGroups[0], min(stop, MAX_GROUPS));
   if (!fits)
   {
-    Items[QUEUE_CAPACITY + uncut - 1u] = uvec2(triangle, ALL_TILES);
+    uint uncut = atomicAdd(NumberOfUncut, 1u);
+    Items[QUEUE_CAPACITY + uncut] = uvec2(triangle, 0u);
+    atomicMax(UncutGroups[2], min(uncut + 1u, MAX_GROUPS));
   }
-  atomicMax(TileGroups[0], min(stop + uncut, MAX_GROUPS));
 }
 
-uint numberOfTileItems()
+// Nothing where the triangle has no such tile.
+void doTile(uint triangle, uvec2 tile);
+
+#if defined(TILES)
+
+void main()
 {
-  return min(NumberOfTiles, QUEUE_CAPACITY) + NumberOfUncut;
+  uint items = min(NumberOfTiles, QUEUE_CAPACITY);
+  for (uint index = gl_WorkGroupID.x; index < items; index += gl_NumWorkGroups.x)
+  {
+    uvec2 item = Items[index];
+    if (item.y != NO_TILE)
+    {
+      doTile(item.x, uvec2(item.y & 0xffffu, item.y >> 16));
+    }
+  }
 }
 
-uvec2 tileItem(uint index)
+#elif defined(UNCUT)
+
+void main()
 {
-  uint tiles = min(NumberOfTiles, QUEUE_CAPACITY);
-  return index < tiles ? Items[index] : Items[QUEUE_CAPACITY + index - tiles];
+  for (uint index = gl_WorkGroupID.z; index < NumberOfUncut; index += gl_NumWorkGroups.z)
+  {
+    doTile(Items[QUEUE_CAPACITY + index].x, gl_WorkGroupID.xy);
+  }
 }
 
-// The tiles of an item, half open, where the triangle has `count`.
-uvec2 tilesOfItem(uvec2 item, uint count)
-{
-  return item.y == ALL_TILES ? uvec2(0u, count)
-    : item.y == NO_TILE      ? uvec2(0u)
-                             : uvec2(item.y, item.y + 1u);
-}
+#endif

@@ -9,9 +9,36 @@
 #include <vtkPolyData.h>
 
 #include <cstdlib>
+#include <iostream>
 
 using namespace VoxelSolidTests;
 using namespace VoxelTestMeshes;
+
+namespace
+{
+/// A box that fills the grid: columns longer than loops of renderers in software.
+bool TestLongColumns()
+{
+  constexpr int longest = 100000;
+  bool good = true;
+  for (const int axis : { 0, 1, 2 })
+  {
+    std::array<int, 3> n{ 3, 3, 3 };
+    n[axis] = longest;
+    const Mesh box = Box({ -0.5, -0.5, -0.5 }, { n[0] - 0.5, n[1] - 0.5, n[2] - 0.5 });
+    const auto grid = MakeGrid({ 0, n[0] - 1, 0, n[1] - 1, 0, n[2] - 1 }, { 0, 0, 0 }, { 1, 1, 1 });
+    const auto voxelizer = MakeVoxelizer(box, grid, vtkVoxelizer::BACKEND_COMPUTE, axis);
+    voxelizer->Update();
+    if (voxelizer->GetNumberOfFilledVoxels() != 9 * longest)
+    {
+      std::cerr << "columns of " << longest << " voxels along axis " << axis << ": "
+                << voxelizer->GetNumberOfFilledVoxels() << " voxels\n";
+      good = false;
+    }
+  }
+  return good;
+}
+}
 
 int TestSolidTiling(int /*argc*/, char* /*argv*/[])
 {
@@ -27,6 +54,11 @@ int TestSolidTiling(int /*argc*/, char* /*argv*/[])
         " x " + std::to_string(n[2]),
       soup, grid);
   }
+  // 400 triangles whose bounds have 1,024 tiles of columns each: more than the queue has room for.
+  good &= CheckExact("diagonals seed 2", RandomDiagonals(seed, 100, 2048.0),
+    MakeGrid({ 0, 2047, 0, 2047, 0, 3 }, { 0.1, 0.2, 0.3 }, { 1, 1, 1 }),
+    { vtkVoxelizer::BACKEND_COMPUTE });
+  good &= TestLongColumns();
   const Mesh knot = TorusKnot(40.0, 16, 96);
   const auto grid = MakeGridAround(knot, 100);
   for (const int backend : Backends)

@@ -133,7 +133,7 @@ bool CheckConservative(const std::string& name, vtkPolyData* mesh, vtkImageData*
   return good;
 }
 
-bool CheckParts(const std::string& name, vtkSlicemapSolidVoxelizer* voxelizer, int seed, int count)
+bool CheckParts(const std::string& name, vtkVoxelizer* voxelizer, int seed, int count)
 {
   voxelizer->UpdateWholeExtent();
   vtkNew<vtkImageData> whole;

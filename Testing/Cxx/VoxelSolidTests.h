@@ -57,7 +57,7 @@ bool CheckConservative(const std::string& name, vtkPolyData* mesh, vtkImageData*
 
 /// Each of some random parts of the grid, asked for by update extent, equals that part of the
 /// whole.
-bool CheckParts(const std::string& name, vtkSlicemapSolidVoxelizer* voxelizer, int seed, int count);
+bool CheckParts(const std::string& name, vtkVoxelizer* voxelizer, int seed, int count);
 
 }
 

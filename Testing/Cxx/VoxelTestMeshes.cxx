@@ -386,6 +386,27 @@ Mesh RandomHugeTetrahedra(int seed, int count, double size, double factor)
 }
 
 //------------------------------------------------------------------------------------------------
+Mesh RandomDiagonals(int seed, int count, double size)
+{
+  constexpr double width = 4.0;
+  Random random(seed);
+  std::vector<Mesh> tetrahedra;
+  for (int number = 0; number < count; ++number)
+  {
+    std::array<Vector, 4> corners;
+    for (int i = 0; i < 4; ++i)
+    {
+      corners[i] = random.InCube(0.0, width);
+      const double along = i * (size - width) / 3.0;
+      corners[i][0] += along;
+      corners[i][1] += along;
+    }
+    tetrahedra.push_back(Tetrahedron(corners));
+  }
+  return Appended(tetrahedra);
+}
+
+//------------------------------------------------------------------------------------------------
 Mesh RandomSpheres(int seed, int count, double size, int resolution)
 {
   Random random(seed);

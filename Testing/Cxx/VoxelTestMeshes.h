@@ -52,6 +52,9 @@ Mesh RandomTetrahedra(int seed, int count, double size);
 Mesh RandomSlivers(int seed, int count, double size);
 /// Tetrahedra whose corners lie up to `factor` times the size away on all sides.
 Mesh RandomHugeTetrahedra(int seed, int count, double size, double factor = 100.0);
+/// Tetrahedra a few units wide from corner to corner of [0, size]^2, up to 4 high: their bounds are
+/// large, though they cover little.
+Mesh RandomDiagonals(int seed, int count, double size);
 Mesh RandomSpheres(int seed, int count, double size, int resolution = 16);
 ///@}
 
