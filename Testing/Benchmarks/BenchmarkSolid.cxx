@@ -12,14 +12,13 @@
 //
 // Meshes are those of the large data, if the build knows where they are, else the bundled one.
 
+#include "VoxelBenchmarks.h"
 #include "VoxelReference.h"
 #include "VoxelTestMeshes.h"
 
-#include <vtkCellArray.h>
 #include <vtkImageData.h>
 #include <vtkImageStencilToImage.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataToImageStencil.h>
 #include <vtkSlicemap.h>
@@ -28,48 +27,13 @@
 #include <vtkVoxelContextScope.h>
 #include <vtkVoxelGLObjects.h>
 
-#include <benchmark/benchmark.h>
+#include <cstddef>
+#include <vector>
 
-#include <map>
-#include <string>
-
-using VoxelTestMeshes::Mesh;
+using namespace VoxelBenchmarks;
 
 namespace
 {
-Mesh Read(const char* file)
-{
-  char name[] = "BenchmarkSolid";
-  char option[] = "-D";
-  char small[] = VTKVOXELIZATION_DATA_DIR;
-  char large[] = VTKVOXELIZATION_LARGE_DATA_DIR;
-  char* arguments[] = { name, option, small, option, large };
-  return VoxelTestMeshes::ReadPLY(file, 5, arguments);
-}
-
-const std::map<std::string, Mesh>& GetMeshes()
-{
-  static const std::map<std::string, Mesh> meshes = []
-  {
-    std::map<std::string, Mesh> all;
-    const Mesh bunny = Read("bunny.ply");
-    const Mesh dragon = Read("dragon.ply");
-    if (bunny && dragon)
-    {
-      all["bunny"] = bunny;
-      all["dragon"] = dragon;
-      all["dragon_1.6M"] = VoxelTestMeshes::Subdivided(dragon, 2);
-    }
-    else
-    {
-      all["bunny_7k"] = Read("bunny_7k.ply");
-    }
-    all["box"] = VoxelTestMeshes::Rotated(VoxelTestMeshes::Box({ 0, 0, 0 }, { 1, 1, 1 }));
-    all["knot_1M"] = VoxelTestMeshes::TorusKnot(1.0, 250, 2000);
-    return all;
-  }();
-  return meshes;
-}
 
 vtkSmartPointer<vtkSlicemapSolidVoxelizer> MakeVoxelizer(const Mesh& mesh, int resolution)
 {
@@ -77,13 +41,6 @@ vtkSmartPointer<vtkSlicemapSolidVoxelizer> MakeVoxelizer(const Mesh& mesh, int r
   voxelizer->SetInputData(mesh);
   voxelizer->SetResolution(resolution);
   return voxelizer;
-}
-
-void Touch(const Mesh& mesh)
-{
-  mesh->GetPoints()->Modified();
-  mesh->GetPolys()->Modified();
-  mesh->Modified();
 }
 
 /// Waits for the GPU.
@@ -129,16 +86,6 @@ void Pass(benchmark::State& state, const Mesh& mesh)
     voxelizer->Update();
     Finish();
   }
-}
-
-vtkSmartPointer<vtkImageData> MakeGrid(const Mesh& mesh, int resolution)
-{
-  const auto voxelizer = MakeVoxelizer(mesh, resolution);
-  voxelizer->HostOutputOff();
-  voxelizer->Update();
-  auto grid = vtkSmartPointer<vtkImageData>::New();
-  grid->CopyStructure(voxelizer->GetOutput());
-  return grid;
 }
 
 void Scanline(benchmark::State& state, const Mesh& mesh)
@@ -220,47 +167,32 @@ void Copy(benchmark::State& state)
   OnBuffers(state, [](auto& from, auto& to, std::size_t bytes) { from.CopyTo(to, 0, 0, bytes); });
 }
 
-void Register()
+void AddAllRows()
 {
-  constexpr int repetitions = 5;
-  const auto add = [&](const std::string& name, auto function, std::initializer_list<int> sizes)
+  MeshTable meshes = MeshesOfFiles();
+  meshes["box"] = VoxelTestMeshes::Rotated(VoxelTestMeshes::Box({ 0, 0, 0 }, { 1, 1, 1 }));
+  meshes["knot_1M"] = VoxelTestMeshes::TorusKnot(1.0, 250, 2000);
+  const std::vector<int> sizes = { 64, 128, 256, 512, 1024 };
+  for (const auto& [name, mesh] : meshes)
   {
-    for (const int size : sizes)
-    {
-      benchmark::RegisterBenchmark(name.c_str(), function)
-        ->Arg(size)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime()
-        ->Iterations(size < 512 ? 5 : 2)
-        ->Repetitions(repetitions)
-        ->ReportAggregatesOnly(false);
-    }
-  };
-  for (const auto& [name, shape] : GetMeshes())
-  {
-    const Mesh mesh = shape;
-    const auto on = [mesh](auto function)
-    { return [mesh, function](benchmark::State& state) { function(state, mesh); }; };
-    add("Update/" + name, on(Update), { 64, 128, 256, 512, 1024 });
-    add("Bits/" + name, on(Bits), { 64, 128, 256, 512, 1024 });
-    add("Pass/" + name, on(Pass), { 64, 128, 256, 512, 1024 });
-    add("Scanline/" + name, on(Scanline), { 64, 128, 256, 512, 1024 });
+    AddRows("Update/" + name, Update, mesh, sizes);
+    AddRows("Bits/" + name, Bits, mesh, sizes);
+    AddRows("Pass/" + name, Pass, mesh, sizes);
+    AddRows("Scanline/" + name, Scanline, mesh, sizes);
     if (mesh->GetNumberOfPolys() < 500000)
     {
-      add("Stencil/" + name, on(Stencil), { 64, 128, 256 });
+      AddRows("Stencil/" + name, Stencil, mesh, { 64, 128, 256 });
     }
   }
-  add("Scan", Scan, { 8, 256, 512, 1024 });
-  add("Clear", Clear, { 256, 512, 1024 });
-  add("Copy", Copy, { 256, 512, 1024 });
+  AddRows("Scan", Scan, { 8, 256, 512, 1024 });
+  AddRows("Clear", Clear, { 256, 512, 1024 });
+  AddRows("Copy", Copy, { 256, 512, 1024 });
 }
+
 }
 
 int main(int argc, char* argv[])
 {
-  Register();
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  AddAllRows();
+  return RunRows(argc, argv);
 }

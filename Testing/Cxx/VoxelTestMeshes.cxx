@@ -329,6 +329,22 @@ Mesh NestedShells(const Vector& centre, const std::vector<double>& radii)
 }
 
 //------------------------------------------------------------------------------------------------
+Mesh MixedScene(double size)
+{
+  const auto at = [size](double x, double y, double z) -> Vector {
+    return { x * size, y * size, z * size };
+  };
+  return Rotated(Appended({
+    Box(at(0.0, 0.0, 0.0), at(1.0, 1.0, 1.0)),
+    Sphere(at(0.2, 0.2, 0.2), 0.15 * size, 8),
+    Sphere(at(0.8, 0.2, 0.2), 0.15 * size, 32),
+    Sphere(at(0.2, 0.8, 0.2), 0.15 * size, 128),
+    Sphere(at(0.8, 0.8, 0.2), 0.15 * size, 512),
+    Moved(TorusKnot(0.8 * size, 100, 1000), at(0.5, 0.5, 0.65)),
+  }));
+}
+
+//------------------------------------------------------------------------------------------------
 Mesh RandomTetrahedra(int seed, int count, double size)
 {
   Random random(seed);

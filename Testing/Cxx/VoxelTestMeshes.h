@@ -43,6 +43,9 @@ Mesh TorusKnot(double size, int around, int along); ///< 2 * around * along tria
 Mesh StarPrism(const Vector& centre, double radius, double height, int spikes);
 /// Spheres inside each other, alternately solid and hollow under the parity rule.
 Mesh NestedShells(const Vector& centre, const std::vector<double>& radii);
+/// Triangles of all sizes: a box, spheres from coarse to fine, and a fine knot in it; 0.5 M of
+/// them.
+Mesh MixedScene(double size);
 ///@}
 
 ///@{
