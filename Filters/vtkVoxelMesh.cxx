@@ -32,6 +32,12 @@ using Leaves = std::vector<vtkSmartPointer<vtkPolyData>>;
 constexpr std::size_t BytesOfTriple = 12;
 constexpr vtkIdType SampleSize = 2048;
 
+/// OpenGL has no empty buffers.
+std::size_t BytesOfTriples(std::size_t count)
+{
+  return std::max<std::size_t>(1, count) * BytesOfTriple;
+}
+
 /// Maps normals that have the length of an area.
 glm::dmat3 GetCofactors(const glm::dmat4& worldToIndex)
 {
@@ -277,7 +283,7 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
       this->Context->GetRendererName() + " takes " + std::to_string(limit) +
       ". Voxelize the mesh in parts and combine the results by exclusive or.");
   }
-  vtkVoxelGL::Prepare(this->Points, this->Context, total * BytesOfTriple);
+  vtkVoxelGL::Prepare(this->Points, this->Context, BytesOfTriples(total));
   // Not a vector, which would write zeros first.
   const std::unique_ptr<float[]> low(needsLow ? new float[3 * total] : nullptr);
   std::atomic<bool> finite{ true };
@@ -375,7 +381,7 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
   this->LowPoints = lowUsed;
   if (this->LowPoints)
   {
-    vtkVoxelGL::Prepare(this->PointsLow, this->Context, total * BytesOfTriple);
+    vtkVoxelGL::Prepare(this->PointsLow, this->Context, BytesOfTriples(total));
     this->PointsLow.Upload(0, 3 * total * sizeof(float), low.get());
     this->PointsLowTexture = TextureOver(this->PointsLow, GL_RGB32F);
   }
@@ -407,7 +413,7 @@ void vtkVoxelMesh::UploadTriangles(const Leaves& leaves, bool expectTriangles)
       this->Context->GetRendererName() + " takes " + std::to_string(limit) +
       ". Voxelize the mesh in parts and combine the results by exclusive or.");
   }
-  vtkVoxelGL::Prepare(this->Triangles, this->Context, total * BytesOfTriple);
+  vtkVoxelGL::Prepare(this->Triangles, this->Context, BytesOfTriples(total));
   bool onlyTriangles = true;
   {
     const vtkVoxelGL::MappedBuffer mapped(this->Triangles, 0, this->Triangles.GetSize(),
