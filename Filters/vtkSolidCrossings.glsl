@@ -219,9 +219,8 @@ void main()
   ivec2 first, end;
   rectangleOf(t, first, end);
   float columns = float(end.x - first.x) * float(end.y - first.y);
-  if (columns > float(DIRECT_COLUMNS))
+  if (columns > float(DIRECT_COLUMNS) && deferTriangle(triangle, first, end))
   {
-    enqueueTiles(triangle, first, end);
     return;
   }
 

@@ -143,7 +143,7 @@ void visit(Facet f, ivec3 local)
   counts = TrianglesOf[number] == f.Triangle;
 #endif
   uvec3 ids = texelFetch(Triangles, int(f.Triangle)).xyz;
-  dvec3 centre = dvec3(local);
+  dvec3 centre = dvec3(turnedBack(local, f.Axis));
   vec3 weights = nearestOf(vec3(f.A - centre), vec3(f.B - centre), vec3(f.C - centre));
 #ifdef IMAGE
   vec2 place = vec2(valueOf(f.Triangle, ids, weights, 0, 2), valueOf(f.Triangle, ids, weights, 1, 2));

@@ -2,7 +2,8 @@
 // Rauwendaal 2012, chapter 3 ("Factorization") and figures 6.1 (26-separating) and 6.2 (6-separating).
 //
 // Included twice, for triangles of few voxels in single precision and for all others in double:
-// REAL, REAL2, REAL3 are float, vec2, vec3 or double, dvec2, dvec3; EDGES and OVERLAP name the types.
+// REAL, REAL2, REAL3 are float, vec2, vec3 or double, dvec2, dvec3; EDGES and OVERLAP name the types;
+// TIGHTENS_BOUNDS is 1 where the facet's bounds are not those of the triangle exactly.
 // SEPARABILITY is 26 or 6. Points are (u, v, w) of a Facet, see vtkSurfaceFacet.glsl.
 
 // Three edges of the triangle in one projection: a point is inside, as far as they can tell, where
@@ -23,6 +24,9 @@ struct OVERLAP
   REAL2 Slope;
   REAL Height;
   REAL Reach;
+  // The voxels to look at, half open.
+  ivec3 First;
+  ivec3 End;
 };
 
 // The edges see a voxel's square, or for 6-separating voxels the diamond in it, grown by `margin`.
@@ -52,12 +56,12 @@ bool isInside(EDGES edges, REAL x, REAL y)
 
 void setUpOverlap(out OVERLAP overlap, Facet f, REAL margin)
 {
-  REAL3 a = REAL3(f.A);
-  REAL3 b = REAL3(f.B);
-  REAL3 c = REAL3(f.C);
-  setUpEdges(overlap.UV, a.xy, b.xy, c.xy, f.Normal.z >= 0.0lf, margin);
-  setUpEdges(overlap.VW, a.yz, b.yz, c.yz, f.Normal.x >= 0.0lf, margin);
-  setUpEdges(overlap.WU, a.zx, b.zx, c.zx, f.Normal.y >= 0.0lf, margin);
+  REAL3 a = turned(REAL3(f.A), f.Axis);
+  REAL3 b = turned(REAL3(f.B), f.Axis);
+  REAL3 c = turned(REAL3(f.C), f.Axis);
+  setUpEdges(overlap.UV, a.xy, b.xy, c.xy, f.Normal.z >= 0.0, margin);
+  setUpEdges(overlap.VW, a.yz, b.yz, c.yz, f.Normal.x >= 0.0, margin);
+  setUpEdges(overlap.WU, a.zx, b.zx, c.zx, f.Normal.y >= 0.0, margin);
   overlap.Slope = REAL2(f.Slope);
   overlap.Height = REAL(f.Height);
 #if SEPARABILITY == 26
@@ -66,12 +70,18 @@ void setUpOverlap(out OVERLAP overlap, Facet f, REAL margin)
   precise REAL reach = REAL(0.5) + margin;
 #endif
   overlap.Reach = reach + REAL(f.Uncertainty);
+  overlap.First = f.First;
+  overlap.End = f.End;
+#if TIGHTENS_BOUNDS
+  tightenBounds(f, overlap.First, overlap.End);
+#endif
 }
 
-// The voxels of column (u, v) that the plane passes, half open, within the given bounds; none when the edges
-// are not over the column.
-ivec2 voxelsOfColumn(OVERLAP overlap, int u, int v, int first, int end)
+// The voxels of column (u, v) that the plane passes, half open; none when the edges are not over the column.
+ivec2 voxelsOfColumn(OVERLAP overlap, int u, int v)
 {
+  int first = overlap.First.z;
+  int end = overlap.End.z;
   precise REAL w = overlap.Height + overlap.Slope.x * REAL(u) + overlap.Slope.y * REAL(v);
   int low = boundedCeil(w - overlap.Reach, first, end);
   int high = 1 - boundedCeil(-(w + overlap.Reach), 1 - end, 1 - first);
@@ -99,6 +109,10 @@ void clipRow(inout ivec2 columns, REAL x, REAL rest)
 
 ivec2 columnsOfRow(OVERLAP overlap, int v, int first, int end)
 {
+  if (v < overlap.First.y || v >= overlap.End.y || first >= end)
+  {
+    return ivec2(0);
+  }
   REAL3 rest = overlap.UV.Y * REAL(v) + overlap.UV.Offset;
   ivec2 columns = ivec2(first, end);
   clipRow(columns, overlap.UV.X.x, rest.x);
@@ -109,7 +123,7 @@ ivec2 columnsOfRow(OVERLAP overlap, int v, int first, int end)
 
 void visitColumn(Facet f, OVERLAP overlap, int u, int v)
 {
-  ivec2 voxels = voxelsOfColumn(overlap, u, v, f.First.z, f.End.z);
+  ivec2 voxels = voxelsOfColumn(overlap, u, v);
   for (int w = voxels.x; w < voxels.y; ++w)
   {
     if (overlapsVoxel(overlap, u, v, w))
@@ -121,7 +135,8 @@ void visitColumn(Facet f, OVERLAP overlap, int u, int v)
 
 void visitRow(Facet f, OVERLAP overlap, int v, int first, int end)
 {
-  ivec2 columns = columnsOfRow(overlap, v, first, end);
+  ivec2 columns =
+    columnsOfRow(overlap, v, max(first, overlap.First.x), min(end, overlap.End.x));
   for (int u = columns.x; u < columns.y; ++u)
   {
     visitColumn(f, overlap, u, v);

@@ -65,6 +65,7 @@ std::vector<std::string> GetOverlapSources()
     define("REAL3", vector + "3");
     define("EDGES", precision + "Edges");
     define("OVERLAP", precision + "Overlap");
+    define("TIGHTENS_BOUNDS", precision == "Far" ? "1" : "0");
     return text + vtkSurfaceOverlapGLSL;
   };
   return { vtkSurfaceFacetGLSL, instance("Near", "float", "vec"), instance("Far", "double", "dvec"),
@@ -200,7 +201,7 @@ void vtkSurfacePass::VisitSlab(
   job.Sources.push_back(visitor.Source);
   job.Sources.push_back(vtkSurfaceVoxelsGLSL);
   job.Defines = GetDefines(settings, visitor);
-  job.HasTriangleStage = settings.CutoffArea >= 0.0f;
+  job.HasTriangleStage = true;
   job.HasTileStage = !draws;
   if (draws)
   {

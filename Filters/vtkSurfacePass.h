@@ -40,7 +40,8 @@ public:
   };
 
   /// CutoffArea: triangles whose bounds have more columns of voxels are large. One invocation does
-  /// no more than LargestCutoffArea, since renderers in software end its loops after 65,535 turns.
+  /// no more than LargestCutoffArea, since renderers in software end its loops after 65,535 turns
+  /// (MAX_COLUMNS in vtkVoxelTileQueue.glsl).
   static constexpr float LargestCutoffArea = 8192.0f;
   static constexpr float AllAreLarge = -1.0f;
 

@@ -14,7 +14,11 @@ void visitColumn(Facet f, int u, int v)
   {
     FarOverlap overlap;
     setUpOverlap(overlap, f, Margin);
-    visitColumn(f, overlap, u, v);
+    ivec2 column = ivec2(u, v);
+    if (all(greaterThanEqual(column, overlap.First.xy)) && all(lessThan(column, overlap.End.xy)))
+    {
+      visitColumn(f, overlap, u, v);
+    }
   }
 }
 

@@ -82,9 +82,10 @@ void main()
     cornerOfRectangle(vec2(f.First.xy + toPixels), vec2(f.End.xy + toPixels), corner);
 
   // Columns are unit squares around integers, pixels around halves.
-  vec2 a = vec2(f.A.xy) + vec2(toPixels) + 0.5;
-  vec2 b = vec2(f.B.xy) + vec2(toPixels) + 0.5;
-  vec2 c = vec2(f.C.xy) + vec2(toPixels) + 0.5;
+  vec2 toCentres = vec2(toPixels) + 0.5;
+  vec2 a = turned(vec3(f.A), f.Axis).xy + toCentres;
+  vec2 b = turned(vec3(f.B), f.Axis).xy + toCentres;
+  vec2 c = turned(vec3(f.C), f.Axis).xy + toCentres;
   vec2 ab = normalize(b - a);
   vec2 bc = normalize(c - b);
   vec2 ca = normalize(a - c);

@@ -38,9 +38,9 @@ layout(std430, binding = 3) buffer Deferred
 void visitTriangle(Facet f, TRIANGLE_OVERLAP overlap)
 {
   // Columns and their voxels in one loop, so that neighbouring invocations differ by their sums only.
-  ivec2 column = f.First.xy;
-  ivec2 voxels = voxelsOfColumn(overlap, column.x, column.y, f.First.z, f.End.z);
-  while (column.y < f.End.y)
+  ivec2 column = overlap.First.xy;
+  ivec2 voxels = voxelsOfColumn(overlap, column.x, column.y);
+  while (column.y < overlap.End.y)
   {
     if (voxels.x < voxels.y && overlapsVoxel(overlap, column.x, column.y, voxels.x))
     {
@@ -49,8 +49,9 @@ void visitTriangle(Facet f, TRIANGLE_OVERLAP overlap)
     ++voxels.x;
     if (voxels.x >= voxels.y)
     {
-      column = column.x + 1 < f.End.x ? ivec2(column.x + 1, column.y) : ivec2(f.First.x, column.y + 1);
-      voxels = voxelsOfColumn(overlap, column.x, column.y, f.First.z, f.End.z);
+      column = column.x + 1 < overlap.End.x ? ivec2(column.x + 1, column.y)
+                                            : ivec2(overlap.First.x, column.y + 1);
+      voxels = voxelsOfColumn(overlap, column.x, column.y);
     }
   }
 }
@@ -84,14 +85,15 @@ void main()
 
 #else
 
-void deferLarge(uint triangle, Facet f)
+bool deferLarge(uint triangle, Facet f)
 {
 #ifdef DEFER_TO_FRAGMENTS
   const uint verticesPerTriangle = 6u;
   uint vertex = atomicAdd(NumberOfVertices, verticesPerTriangle);
   DeferredTriangles[vertex / verticesPerTriangle] = triangle;
+  return true;
 #else
-  enqueueTiles(triangle, f.First.xy, f.End.xy);
+  return deferTriangle(triangle, f.First.xy, f.End.xy);
 #endif
 }
 
@@ -103,9 +105,8 @@ void main()
   {
     return;
   }
-  if (columnsOf(f) > CutoffArea)
+  if (columnsOf(f) > CutoffArea && deferLarge(triangle, f))
   {
-    deferLarge(triangle, f);
     return;
   }
   if (!f.Near)

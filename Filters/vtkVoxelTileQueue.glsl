@@ -19,6 +19,7 @@ const uint TILE_SIZE = 64u;
 const uint MAX_GROUPS = 32768u;
 const uint QUEUE_CAPACITY = 262144u;
 const uint MAX_TILES = 16384u;
+const float MAX_COLUMNS = 8192.0;
 const uint NO_TILE = 0xffffffffu;
 
 layout(std430, binding = 2) buffer TileQueue
@@ -51,7 +52,8 @@ bool waitingTriangle(out uint triangle)
   return exists;
 }
 
-void enqueueTiles(uint triangle, ivec2 first, ivec2 end)
+// False when there is no room for the tiles of the rectangle, and nothing was done.
+bool enqueueTiles(uint triangle, ivec2 first, ivec2 end)
 {
   uvec2 tiles = (uvec2(end - first) + TILE_SIZE - 1u) / TILE_SIZE;
   uint count = tiles.x * tiles.y;
@@ -66,12 +68,31 @@ void enqueueTiles(uint triangle, ivec2 first, ivec2 end)
     Items[item] = uvec2(triangle, fits ? tile / tiles.x << 16 | tile % tiles.x : NO_TILE);
   }
   atomicMax(TileGroups[0], min(stop, MAX_GROUPS));
-  if (!fits)
+  return fits;
+}
+
+void enqueueUncut(uint triangle)
+{
+  uint index = atomicAdd(NumberOfUncut, 1u);
+  Items[QUEUE_CAPACITY + index] = uvec2(triangle, 0u);
+  atomicMax(UncutGroups[2], min(index + 1u, MAX_GROUPS));
+}
+
+// Large triangles wait, as tiles or uncut. False when one invocation can do the triangle as well, and there is
+// no room for its tiles.
+bool deferTriangle(uint triangle, ivec2 first, ivec2 end)
+{
+  if (enqueueTiles(triangle, first, end))
   {
-    uint uncut = atomicAdd(NumberOfUncut, 1u);
-    Items[QUEUE_CAPACITY + uncut] = uvec2(triangle, 0u);
-    atomicMax(UncutGroups[2], min(uncut + 1u, MAX_GROUPS));
+    return true;
   }
+  vec2 size = vec2(end - first);
+  bool isTooLarge = size.x * size.y > MAX_COLUMNS;
+  if (isTooLarge)
+  {
+    enqueueUncut(triangle);
+  }
+  return isTooLarge;
 }
 
 // Nothing where the triangle has no such tile.

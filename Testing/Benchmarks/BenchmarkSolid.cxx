@@ -43,14 +43,6 @@ vtkSmartPointer<vtkSlicemapSolidVoxelizer> MakeVoxelizer(const Mesh& mesh, int r
   return voxelizer;
 }
 
-/// Waits for the GPU.
-void Finish()
-{
-  vtkNew<vtkVoxelContext> context;
-  vtkVoxelContext::Scope scope(context);
-  glFinish();
-}
-
 void Update(benchmark::State& state, const Mesh& mesh)
 {
   const auto voxelizer = MakeVoxelizer(mesh, static_cast<int>(state.range(0)));

@@ -7,6 +7,9 @@
 #include <vtkPolyData.h>
 #include <vtkSlicemapSolidVoxelizer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkVoxelCompatibility.h>
+#include <vtkVoxelContext.h>
+#include <vtkVoxelContextScope.h>
 
 namespace VoxelBenchmarks
 {
@@ -57,6 +60,13 @@ void Touch(vtkPolyData* mesh)
 }
 
 //------------------------------------------------------------------------------------------------
+void Finish()
+{
+  vtkNew<vtkVoxelContext> context;
+  vtkVoxelContext::Scope scope(context);
+  glFinish();
+}
+
 vtkSmartPointer<vtkImageData> MakeGrid(vtkPolyData* mesh, int resolution)
 {
   vtkNew<vtkSlicemapSolidVoxelizer> voxelizer;

@@ -33,6 +33,9 @@ MeshTable SurfaceMeshes();
 /// So that filters run again, as on a new mesh.
 void Touch(vtkPolyData* mesh);
 
+/// Waits for the GPU.
+void Finish();
+
 /// The grid of the voxelizers with so many voxels along the longest side of the mesh; no scalars.
 vtkSmartPointer<vtkImageData> MakeGrid(vtkPolyData* mesh, int resolution);
 
