@@ -461,6 +461,7 @@ bool vtkHybridSurfaceVoxelizer::FillVoxelList(
     });
   output->SetPoints(points);
   const vtkIdType n = points->GetNumberOfPoints();
+  this->SetNumberOfFilledVoxels(n);
   output->SetVerts(n < VTK_TYPE_INT32_MAX ? MakeVertices<vtkTypeInt32Array>(n)
                                           : MakeVertices<vtkTypeInt64Array>(n));
   output->GetPointData()->AddArray(indices);
@@ -495,6 +496,7 @@ bool vtkHybridSurfaceVoxelizer::FillHyperTreeGrid(
         arrays[i]->InsertTuples(arrays[i]->GetNumberOfTuples(), slab.Count, 0, slab.Values[i]);
       }
     });
+  this->SetNumberOfFilledVoxels(static_cast<vtkIdType>(tree.GetNumberOfVoxels()));
   return finished &&
     tree.Build(output, arrays, [&](double) { return !vtkVoxelCompatibility::CheckAbort(this); });
 }

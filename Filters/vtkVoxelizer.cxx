@@ -70,6 +70,7 @@ struct vtkVoxelizer::Internals
   vtkSmartPointer<vtkSlicemap> Slicemap;
   vtkVoxelMesh Mesh;
   vtkIdType NumberOfTriangles = 0;
+  vtkIdType NumberOfFilledVoxels = -1; // -1: those of the slicemap
   std::string RendererName;
 };
 
@@ -130,7 +131,16 @@ vtkMTimeType vtkVoxelizer::GetMTime()
 
 vtkIdType vtkVoxelizer::GetNumberOfFilledVoxels()
 {
+  if (this->State->NumberOfFilledVoxels >= 0)
+  {
+    return this->State->NumberOfFilledVoxels;
+  }
   return this->State->Slicemap ? this->State->Slicemap->GetNumberOfFilledVoxels() : -1;
+}
+
+void vtkVoxelizer::SetNumberOfFilledVoxels(vtkIdType count)
+{
+  this->State->NumberOfFilledVoxels = count;
 }
 
 vtkIdType vtkVoxelizer::GetNumberOfTriangles()
@@ -417,6 +427,7 @@ int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
   const std::function<bool(vtkVoxelMesh& mesh)>& work)
 {
   this->State->NumberOfTriangles = 0;
+  this->State->NumberOfFilledVoxels = -1;
   this->UsedBackend = BACKEND_AUTO;
   try
   {
@@ -442,6 +453,7 @@ int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
     if (!work(this->State->Mesh))
     {
       this->State->Slicemap = nullptr;
+      this->State->NumberOfFilledVoxels = -1;
       return vtkVoxelCompatibility::CheckAbort(this) ? 1 : 0;
     }
     if (!scope.Check("voxelizing"))
@@ -453,6 +465,7 @@ int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
   catch (const std::exception& error)
   {
     this->State->Slicemap = nullptr;
+    this->State->NumberOfFilledVoxels = -1;
     vtkErrorMacro(<< error.what());
     return 0;
   }

@@ -314,6 +314,11 @@ protected:
   vtkVoxelContext* GetContext();
 
   /**
+   * For runs that leave no slicemap: the number of voxels that they set.
+   */
+  void SetNumberOfFilledVoxels(vtkIdType count);
+
+  /**
    * For Voxelize: the fraction done, from 0 to 1; false when the filter was told to stop.
    */
   bool ReportProgress(double fraction);
