@@ -1,15 +1,18 @@
 """Proves that every wrapped class can be made, printed and used from Python, that all its properties keep
-what they are given, and that the voxels are a NumPy array of shape (nz, ny, nx)."""
+what they are given, that the voxels are a NumPy array of shape (nz, ny, nx), and that those of surfaces
+carry the same attributes in every output."""
 import re
 import sys
 import unittest
 
 import vtkvoxelization
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkvoxelization import vtkSlicemap, vtkSlicemapSolidVoxelizer, vtkVoxelContext, vtkVoxelizer
+from vtkvoxelization import (
+    vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer, vtkVoxelContext, vtkVoxelizer)
 
+# What all voxelizers have, and what each has besides.
 VALUES = {
     "SampleDimensions": (3, 4, 5),
     "Resolution": 17,
@@ -28,15 +31,50 @@ VALUES = {
     "Backend": 1,
     "CheckWatertight": False,
     "MemoryLimit": 123456,
-    "Mode": 3,
-    "FillRule": 2,
-    "ColumnAxis": 1,
 }
+SOLID_VALUES = {"Mode": 3, "FillRule": 2, "ColumnAxis": 1}
+SURFACE_VALUES = {"Separability": 6, "Strategy": 2, "CutoffArea": 3.5, "AttributeCombination": 3}
+
+
+def sphere():
+    """With the normals, and the x of the points as an array of this name."""
+    source = vtkSphereSource()
+    source.SetThetaResolution(40)
+    source.SetPhiResolution(40)
+    source.Update()
+    mesh = source.GetOutput()
+    x = numpy_to_vtk(vtk_to_numpy(mesh.GetPoints().GetData())[:, 0].copy(), deep=True)
+    x.SetName("x")
+    mesh.GetPointData().AddArray(x)
+    return mesh
+
+
+def leaves(tree):
+    """Ids of the cells that are voxels, in the order of the trees."""
+    cursor = vtkHyperTreeGridNonOrientedCursor()
+    ids = []
+
+    def visit():
+        if cursor.IsMasked():
+            return
+        if cursor.IsLeaf():
+            ids.append(cursor.GetGlobalNodeIndex())
+            return
+        for child in range(cursor.GetNumberOfChildren()):
+            cursor.ToChild(child)
+            visit()
+            cursor.ToParent()
+
+    for i in range(tree.GetMaxNumberOfTrees()):
+        if tree.GetTree(i):
+            tree.InitializeNonOrientedCursor(cursor, i, False)
+            visit()
+    return ids
 
 
 class Smoke(unittest.TestCase):
     def test_instances(self):
-        for name in ("vtkSlicemap", "vtkSlicemapSolidVoxelizer", "vtkVoxelContext"):
+        for name in ("vtkHybridSurfaceVoxelizer", "vtkSlicemap", "vtkSlicemapSolidVoxelizer", "vtkVoxelContext"):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
@@ -44,29 +82,50 @@ class Smoke(unittest.TestCase):
             vtkVoxelizer()
 
     def test_properties(self):
-        voxelizer = vtkSlicemapSolidVoxelizer()
-        for name, value in VALUES.items():
-            getattr(voxelizer, "Set" + name)(value)
-            self.assertEqual(getattr(voxelizer, "Get" + name)(), value, name)
+        for voxelizer, own in (
+                (vtkSlicemapSolidVoxelizer(), SOLID_VALUES), (vtkHybridSurfaceVoxelizer(), SURFACE_VALUES)):
+            for name, value in {**VALUES, **own}.items():
+                getattr(voxelizer, "Set" + name)(value)
+                self.assertEqual(getattr(voxelizer, "Get" + name)(), value, name)
+            image = vtkImageData()
+            voxelizer.SetReferenceImage(image)
+            self.assertIs(voxelizer.GetReferenceImage(), image)
+
+    def test_lists_of_attributes(self):
+        voxelizer = vtkHybridSurfaceVoxelizer()
         image = vtkImageData()
-        voxelizer.SetReferenceImage(image)
-        self.assertIs(voxelizer.GetReferenceImage(), image)
+        voxelizer.SetTextureImage(image)
+        self.assertIs(voxelizer.GetTextureImage(), image)
+        for name in "a", "b", "a":
+            voxelizer.AddAttribute(name)
+        count = voxelizer.GetNumberOfAttributes()
+        self.assertEqual([voxelizer.GetAttribute(i) for i in range(count)], ["a", "b"])
+        self.assertIsNone(voxelizer.GetAttribute(2))
+        voxelizer.RemoveAllAttributes()
+        self.assertEqual(voxelizer.GetNumberOfAttributes(), 0)
+
+    def check_enumerations(self, voxelizer, numbers):
+        """Number of setters for each property; each sets a value that no other does."""
+        for name, number in {"Backend": 3, "OutputScalarType": 2, "OutputAttributeType": 2, **numbers}.items():
+            setters = [s for s in dir(voxelizer) if re.match(f"Set{name}To", s)]
+            values = set()
+            for setter in setters:
+                getattr(voxelizer, setter)()
+                values.add(getattr(voxelizer, "Get" + name)())
+            self.assertEqual((len(setters), len(values)), (number, number), name)
 
     def test_enumerations(self):
-        voxelizer = vtkSlicemapSolidVoxelizer()
-        setters = [s for s in dir(voxelizer) if re.match(
-            r"Set(Backend|OutputScalarType|OutputAttributeType|Mode|FillRule|ColumnAxis)To", s)]
-        self.assertEqual(len(setters), 3 + 2 + 2 + 4 + 3 + 4)
-        for setter in setters:
-            getattr(voxelizer, setter)()
+        self.check_enumerations(
+            vtkSlicemapSolidVoxelizer(), {"Mode": 4, "FillRule": 3, "ColumnAxis": 4})
         self.assertEqual(vtkSlicemapSolidVoxelizer.MODE_BOUNDARY, 3)
+        self.check_enumerations(
+            vtkHybridSurfaceVoxelizer(), {"Separability": 2, "Strategy": 4, "AttributeCombination": 4})
+        self.assertEqual(vtkHybridSurfaceVoxelizer.STRATEGY_HYBRID, 3)
+        self.assertEqual(vtkHybridSurfaceVoxelizer.COMBINE_FIRST, 3)
 
     def test_voxels(self):
-        source = vtkSphereSource()
-        source.SetThetaResolution(40)
-        source.SetPhiResolution(40)
         voxelizer = vtkSlicemapSolidVoxelizer()
-        voxelizer.SetInputConnection(source.GetOutputPort())
+        voxelizer.SetInputData(sphere())
         voxelizer.SetSampleDimensions(30, 40, 50)
         voxelizer.CubicVoxelsOff()
         voxelizer.Update()
@@ -77,6 +136,61 @@ class Smoke(unittest.TestCase):
         self.assertEqual(voxels.sum(), voxelizer.GetNumberOfFilledVoxels())
         self.assertEqual(voxelizer.GetNumberOfLeakingColumns(), 0)
         self.assertTrue(voxelizer.GetRendererName())
+
+    def surface(self, resolution=30):
+        voxelizer = vtkHybridSurfaceVoxelizer()
+        voxelizer.SetInputData(sphere())
+        voxelizer.SetResolution(resolution)
+        for name in "Normals", "x":
+            voxelizer.AddAttribute(name)
+        return voxelizer
+
+    def test_surface_outputs(self):
+        voxelizer = self.surface()
+        voxelizer.Update()
+        image = voxelizer.GetOutput()
+        n = image.GetDimensions()
+        voxels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(n[::-1])
+        count = voxelizer.GetNumberOfFilledVoxels()
+        self.assertEqual(voxels.sum(), count)
+        self.assertFalse(voxels[n[2] // 2, n[1] // 2, n[0] // 2])
+
+        voxelizer.Update(1)
+        self.assertEqual(voxelizer.GetNumberOfFilledVoxels(), count)
+        points = voxelizer.GetVoxelList().GetPointData()
+        i, j, k = vtk_to_numpy(points.GetArray("VoxelIndex")).T
+        self.assertEqual(len(i), count)
+        self.assertTrue(voxels[k, j, i].all())
+
+        voxelizer.Update(2)
+        self.assertEqual(voxelizer.GetNumberOfFilledVoxels(), count)
+        tree = voxelizer.GetHyperTreeGrid()
+        self.assertIsInstance(tree, vtkHyperTreeGrid)
+        ids = leaves(tree)
+        self.assertEqual(len(ids), count)
+
+        for name, components in ("Normals", 3), ("x", 1):
+            dense = vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(n[::-1] + (components,))
+            listed = vtk_to_numpy(points.GetArray(name)).reshape(-1, components)
+            self.assertEqual((dense[k, j, i] - listed).any(), False)
+            self.assertFalse(dense[voxels == 0].any())
+            in_tree = vtk_to_numpy(tree.GetCellData().GetArray(name)).reshape(-1, components)[ids]
+            self.assertEqual(sorted(map(tuple, in_tree)), sorted(map(tuple, listed)))
+        # The normals of a sphere of radius 0.5 point as its points do.
+        centres = vtk_to_numpy(voxelizer.GetVoxelList().GetPoints().GetData())
+        normals = vtk_to_numpy(points.GetArray("Normals"))
+        self.assertLess(abs(normals - 2 * centres).max(), 0.15)
+
+    def test_surface_runs_are_identical(self):
+        def run():
+            voxelizer = self.surface(60)
+            voxelizer.Update(1)
+            points = voxelizer.GetVoxelList().GetPointData()
+            return [vtk_to_numpy(points.GetArray(i)).tobytes() for i in range(points.GetNumberOfArrays())]
+
+        first = run()
+        self.assertEqual(len(first), 3)
+        self.assertEqual([run() for _ in range(3)], 3 * [first])
 
     def test_slicemap(self):
         image = vtkImageData()
