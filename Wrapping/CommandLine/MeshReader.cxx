@@ -12,6 +12,7 @@
 #include "MeshFileCheck.h"
 #include "Messages.h"
 #include "Terminal.h"
+#include "TextureCoordinates.h"
 
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
@@ -68,22 +69,39 @@ vtkSmartPointer<vtkAlgorithm> MakePLYReader(const std::string& file)
   return reader;
 }
 
+/// VTK leaves out all arrays but the first of each kind, unless told otherwise.
+vtkSmartPointer<vtkAlgorithm> MakeLegacyReader(const std::string& file)
+{
+  auto reader = vtkSmartPointer<vtkPolyDataReader>::New();
+  reader->SetFileName(file.c_str());
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllNormalsOn();
+  reader->ReadAllTensorsOn();
+  reader->ReadAllColorScalarsOn();
+  reader->ReadAllTCoordsOn();
+  reader->ReadAllFieldsOn();
+  return reader;
+}
+
 struct Format
 {
   const char* Extension;
   vtkSmartPointer<vtkAlgorithm> (*MakeReader)(const std::string& file);
   /// Finds what the reader would not survive or not notice.
   void (*Check)(const std::string& file);
+  /// Brings texture coordinates into the form of the others.
+  void (*Amend)(vtkPolyData* part);
 };
 
 constexpr Format Formats[] = {
-  { ".stl", MakeSTLReader, MeshFileCheck::CheckSTL },
-  { ".ply", MakePLYReader, MeshFileCheck::CheckPLY },
-  { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ },
-  { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr },
-  { ".vtk", MakeReader<vtkPolyDataReader>, LegacyFileCheck::Check },
-  { ".gltf", MakeReader<GltfReader>, GltfFileCheck::Check },
-  { ".glb", MakeReader<GltfReader>, GltfFileCheck::Check },
+  { ".stl", MakeSTLReader, MeshFileCheck::CheckSTL, nullptr },
+  { ".ply", MakePLYReader, MeshFileCheck::CheckPLY, nullptr },
+  { ".obj", MakeReader<vtkOBJReader>, MeshFileCheck::CheckOBJ, TextureCoordinates::Join },
+  { ".vtp", MakeReader<vtkXMLPolyDataReader>, nullptr, nullptr },
+  { ".vtk", MakeLegacyReader, LegacyFileCheck::Check, nullptr },
+  { ".gltf", MakeReader<GltfReader>, GltfFileCheck::Check, TextureCoordinates::Flip },
+  { ".glb", MakeReader<GltfReader>, GltfFileCheck::Check, TextureCoordinates::Flip },
 };
 
 const Format& FindFormat(const std::string& file)
@@ -254,8 +272,16 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   try
   {
     const MemoryLimit limit(file);
-    auto data = ReadAs(FindFormat(file), file, messages, terminal);
+    const Format& format = FindFormat(file);
+    auto data = ReadAs(format, file, messages, terminal);
     CheckMesh(file, data);
+    if (format.Amend)
+    {
+      for (vtkPolyData* part : GetParts(data))
+      {
+        format.Amend(part);
+      }
+    }
     return data;
   }
   catch (const Failure&)

@@ -20,8 +20,8 @@ namespace MeshReader
 {
 /**
  * The mesh of a file: a vtkPolyData, or a composite of them with the transforms of their nodes
- * applied. It has polygons or strips, and all its points are finite. Throws Failure with
- * ExitCode::Input otherwise.
+ * applied, with all arrays of points and cells that VTK reads. It has polygons or strips, and all
+ * its points are finite. Throws Failure with ExitCode::Input otherwise.
  */
 vtkSmartPointer<vtkDataObject> Read(
   const std::string& file, Messages& messages, Terminal& terminal);
