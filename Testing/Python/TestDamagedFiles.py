@@ -12,9 +12,11 @@ import random
 import re
 import shutil
 import tempfile
+import zlib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
 from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -53,17 +55,35 @@ def damage(rng, content):
     return bytes(data)
 
 
+def with_right_sums(content):
+    """A damaged PNG file whose chunks have the sums that belong to their bytes."""
+    data, position = bytearray(content), 8
+    while position + 12 <= len(data):
+        size = int.from_bytes(data[position:position + 4], "big")
+        end = position + 8 + size
+        if end + 4 > len(data):
+            break
+        data[end:end + 4] = zlib.crc32(data[position + 4:end]).to_bytes(4, "big")
+        position = end + 4
+    return bytes(data)
+
+
 class TestDamagedFiles(TestProgram.ProgramTest):
-    def survive(self, name, content, count):
+    def survive(self, name, content, count, words=("{}",), mend=lambda damaged: damaged):
+        """The words of the command line have the name of the damaged file in the place of {}."""
+        def run(seed):
+            damaged = mend(damage(random.Random(f"{seed} {name}"), content))
+            return self.run_one(f"{seed}-{name}", damaged, seed, words)
+
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            for seed, done in pool.map(lambda seed: self.run_one(name, content, seed), range(count)):
+            for seed, done in pool.map(run, range(count)):
                 with self.subTest(seed=seed, name=name):
                     self.check(f"{seed}-{name}", done)
 
-    def run_one(self, name, content, seed):
-        mesh = self.file(f"{seed}-{name}", damage(random.Random(f"{seed} {name}"), content))
-        return seed, self.call("--quiet", "--resolution", 4, mesh.name, mesh.name + ".vti",
-                               errors="replace")
+    def run_one(self, name, content, seed, words):
+        file = self.file(name, content).name
+        return seed, self.call("--quiet", "--resolution", 4, *(word.format(file) for word in words),
+                               file + ".vti", errors="replace")
 
     def check(self, name, done):
         try:
@@ -79,8 +99,8 @@ class TestDamagedFiles(TestProgram.ProgramTest):
             shutil.copy(self.folder / name, Path(TestProgram.SCRATCH or tempfile.gettempdir()) / name)
             raise
 
-    def of_writer(self, writer, name):
-        TestProgram.written(writer, polydata(*box()), self.folder / "made")
+    def of_writer(self, writer, name, data=None):
+        TestProgram.written(writer, data or polydata(*box()), self.folder / "made")
         return name, (self.folder / "made").read_bytes()
 
     def test_gltf(self):
@@ -115,6 +135,34 @@ class TestDamagedFiles(TestProgram.ProgramTest):
                 writer.SetFileVersion(version)
                 getattr(writer, "SetFileTypeTo" + kind)()
                 self.survive(*self.of_writer(writer, f"{kind}{version}.vtk"), 20)
+
+    def test_arrays(self):
+        data = TestProgram.polydata_with_arrays()
+        words = ["--method", "surface", "--attributes", "Position,Height,Side", "{}"]
+        text = vtkXMLPolyDataWriter()
+        text.SetDataModeToAscii()
+        self.survive(*self.of_writer(text, "arrays.vtp", data), 20, words)
+        for kind in "ASCII", "Binary":
+            writer = vtkPolyDataWriter()
+            getattr(writer, "SetFileTypeTo" + kind)()
+            self.survive(*self.of_writer(writer, f"arrays{kind}.vtk", data), 20, words)
+
+    def test_textures(self):
+        self.file("wall.obj", TestProgram.textured_obj())
+        words = ["--method", "surface", "--texture", "{}", "wall.obj"]
+        self.survive("checks.png", TestProgram.checks(), 10, words)
+        self.survive("sums.png", TestProgram.checks(), 60, words, with_right_sums)
+        palette = TestProgram.png_chunk(b"PLTE", bytes(range(30)))
+        rows = [bytes(random.Random(1).randrange(10) for _ in range(16))] * 16
+        self.survive("palette.png", TestProgram.png(rows, color=3, rest=palette), 20, words)
+        self.file("good.png", TestProgram.checks())
+        reader = vtkPNGReader()
+        reader.SetFileName(str(self.folder / "good.png"))
+        writer = vtkJPEGWriter()
+        writer.SetInputConnection(reader.GetOutputPort())
+        writer.SetFileName(str(self.folder / "good.jpg"))
+        writer.Write()
+        self.survive("checks.jpg", (self.folder / "good.jpg").read_bytes(), 40, words)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,8 @@
 
 Voxels: boxes of every format that it reads come out with the very voxels whose centres they hold, in
 every format that it writes; grids, modes, fill rules, backends and reference images do what the help
-says. Manners: one line on the standard error for each bad command line, bad input or failing output,
+says. Surfaces: arrays and textures of every format arrive at the voxels that they belong to, in every
+format that holds attributes. Manners: one line on the standard error for each bad command line, bad input or failing output,
 the documented exit code, no file left behind, and none touched that was there before.
 
     TestProgram.py --program vtkvoxelize -D DATA_DIRECTORY [-T SCRATCH_DIRECTORY]
@@ -23,13 +24,17 @@ import sys
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
-from vtkmodules.vtkIOImage import vtkMetaImageReader, vtkPNGReader
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkCellArray, vtkHyperTreeGridNonOrientedGeometryCursor, vtkImageData, vtkPolyData)
+from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkMetaImageReader, vtkPNGReader
 from vtkmodules.vtkIOLegacy import vtkPolyDataWriter, vtkStructuredPointsWriter
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter, vtkXMLPolyDataWriter
+from vtkmodules.vtkIOXML import (
+    vtkXMLHyperTreeGridReader, vtkXMLImageDataReader, vtkXMLImageDataWriter, vtkXMLPolyDataReader,
+    vtkXMLPolyDataWriter)
 
 USAGE, INPUT, VOXELIZATION, OUTPUT = 1, 2, 3, 4
 
@@ -173,6 +178,112 @@ def glb(parts=None):
     return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
 
 
+# Meshes with attributes ----------------------------------------------------------------------------
+
+
+def named(array, name, tuples):
+    array.SetName(name)
+    array.SetNumberOfComponents(len(tuples[0]))
+    for t in tuples:
+        array.InsertNextTuple(t)
+    return array
+
+
+def polydata_with_arrays():
+    """A box whose points have x, y, z, as "Position", and whose cells the number of their side."""
+    points, triangles = box()
+    data = polydata(points, triangles)
+    data.GetPointData().AddArray(named(vtkFloatArray(), "Position", points))
+    data.GetPointData().AddArray(named(vtkFloatArray(), "Height", [(p[2],) for p in points]))
+    data.GetCellData().AddArray(
+        named(vtkFloatArray(), "Side", [(i // 2,) for i in range(len(triangles))]))
+    return data
+
+
+def ply_with_colors():
+    """The box with red points where x is least, and green ones where it is greatest."""
+    points, triangles = box()
+    text = ply_text(points, triangles).decode()
+    text = text.replace("property float z\n", "property float z\n" + "".join(
+        f"property uchar {channel}\n" for channel in ("red", "green", "blue")))
+    for p in points:
+        color = "255 0 0" if p[0] == LOW[0] else "0 255 0"
+        text = text.replace("\n%g %g %g\n" % p, "\n%g %g %g %s\n" % (*p, color))
+    return text.encode()
+
+
+RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+
+
+def png_chunk(name, data):
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+def png(rows, depth=8, color=2, rest=b""):
+    """Rows from the top one down, of bytes."""
+    width = len(rows[0]) * 8 // depth // (3 if color == 2 else 1)
+    head = struct.pack(">2I5B", width, len(rows), depth, color, 0, 0, 0)
+    pixels = zlib.compress(b"".join(b"\0" + row for row in rows))
+    return (b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", head) + rest + png_chunk(b"IDAT", pixels)
+            + png_chunk(b"IEND", b""))
+
+
+def checks(size=16):
+    """A picture of four fields: red and green below, blue and white above."""
+    half = size // 2
+    rows = [bytes(BLUE) * half + bytes(WHITE) * half] * half
+    return png(rows + [bytes(RED) * half + bytes(GREEN) * half] * half)
+
+
+def wall(z=0.25):
+    """A square of side 8 in the x-y plane."""
+    return [(8 * u, 8 * v, z) for u, v in SQUARE], [(0, 1, 2), (0, 2, 3)]
+
+
+def color_of_wall(x, y):
+    """What checks() stretched over the wall has at a point; none where the pixels blend."""
+    if min(abs(x - 4), abs(y - 4), x, 8 - x, y, 8 - y) < 0.5:
+        return None
+    return ((RED, GREEN), (BLUE, WHITE))[y > 4][x > 4]
+
+
+def textured_obj(unused=0, materials=False):
+    """The wall; its coordinates come in another order than its points."""
+    points, triangles = wall()
+    order = [2, 0, 3, 1]
+    lines = ["v %g %g %g" % p for p in points] + ["vt %g %g" % SQUARE[i] for i in order]
+    lines += ["vt 0.5 0.5"] * unused
+    for number, t in enumerate(triangles):
+        lines += [f"usemtl material{number}"] * materials
+        lines.append("f " + " ".join(f"{i + 1}/{order.index(i) + 1}" for i in t))
+    return ("\n".join(lines) + "\n").encode()
+
+
+def textured_gltf():
+    """The wall; the coordinates of this format count from the top."""
+    points, triangles = wall()
+    parts = [b"".join(struct.pack("<3f", *p) for p in points),
+             b"".join(struct.pack("<3H", *t) for t in triangles),
+             b"".join(struct.pack("<2f", u, 1 - v) for u, v in SQUARE)]
+    views, offset = [], 0
+    for part in parts:
+        views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(part)})
+        offset += len(part)
+    accessors = [
+        {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+         "min": [0, 0, 0.25], "max": [8, 8, 0.25]},
+        {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+        {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
+    ]
+    scene = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1}]}],
+        "buffers": [{"byteLength": offset}], "bufferViews": views, "accessors": accessors,
+    }
+    return gltf((scene, b"".join(parts)))
+
+
 # Images --------------------------------------------------------------------------------------------
 
 
@@ -214,6 +325,73 @@ def read_vti(path):
     reader.SetFileName(str(path))
     reader.Update()
     return Image(reader.GetOutput())
+
+
+class Voxels:
+    """Centres of the set voxels, and values of each attribute in the same order."""
+
+    def __init__(self, centers, arrays):
+        self.centers = centers
+        self.arrays = arrays
+
+    def of(self, name):
+        return {tuple(round(x, 4) for x in center): value
+                for center, value in zip(self.centers, self.arrays[name])}
+
+
+def arrays_of(data, ids):
+    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+    return {a.GetName(): [a.GetTuple(i) for i in ids] for a in arrays}
+
+
+def image_voxels(path):
+    image = read_vti(path)
+    data = image.data.GetCellData() if image.cells else image.data.GetPointData()
+    ids = [i for i, value in enumerate(image.values()) if value]
+    centers = list(image.centers())
+    return Voxels([centers[i] for i in ids], arrays_of(data, ids))
+
+
+def list_voxels(path):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    data = reader.GetOutput()
+    ids = range(data.GetNumberOfPoints())
+    assert data.GetNumberOfVerts() == len(ids)
+    return Voxels([data.GetPoint(i) for i in ids], arrays_of(data.GetPointData(), ids))
+
+
+def octree_voxels(path):
+    reader = vtkXMLHyperTreeGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    tree = reader.GetOutput()
+    cursor = vtkHyperTreeGridNonOrientedGeometryCursor()
+    centers, ids = [], []
+
+    def visit():
+        if cursor.IsMasked():
+            return
+        if cursor.IsLeaf():
+            point = [0.0, 0.0, 0.0]
+            cursor.GetPoint(point)
+            centers.append(point)
+            ids.append(cursor.GetGlobalNodeIndex())
+            return
+        for child in range(cursor.GetNumberOfChildren()):
+            cursor.ToChild(child)
+            visit()
+            cursor.ToParent()
+
+    for i in range(tree.GetMaxNumberOfTrees()):
+        if tree.GetTree(i):
+            tree.InitializeNonOrientedGeometryCursor(cursor, i, False)
+            visit()
+    return Voxels(centers, arrays_of(tree.GetCellData(), ids))
+
+
+READERS = {".vti": image_voxels, ".vtp": list_voxels, ".htg": octree_voxels}
 
 
 def read_meta(path):
@@ -534,6 +712,297 @@ class TestVoxels(ProgramTest):
                   naming=["60000 x 60000 x 60000", "MiB"])
 
 
+class TestSurface(ProgramTest):
+    SURFACE = ("--method", "surface")
+
+    def voxelize(self, *options, mesh, output="out.vti", **more):
+        self.succeed(*self.SURFACE, *options, mesh, output, **more)
+        return READERS[Path(output).suffix](self.folder / output)
+
+    def box_mesh(self, name="box.vtp", writer=None):
+        written(writer or vtkXMLPolyDataWriter(), polydata_with_arrays(), self.folder / name)
+        return name
+
+    # The box ends in the middle of the outermost voxels of this grid.
+    GRID = ("--voxel-size", 0.5, "--bounds", "0.75,3.25,1.75,5.25,2.75,7.25")
+    SHELL = 5 * 7 * 9 - 3 * 5 * 7
+
+    def test_shell(self):
+        report = self.info(*self.SURFACE, *self.GRID, self.mesh(), "out.vti")
+        self.assertEqual(report["filled voxels"].split()[0], str(self.SHELL))
+        self.assertEqual(report["triangles"], "12")
+        self.assertNotIn("leaking columns", report)
+        self.assertEqual(read_vti(self.folder / "out.vti").filled(), self.SHELL)
+
+    def test_open_mesh_without_warning(self):
+        mesh = self.file("wall.ply", ply_binary(*wall()))
+        self.assertEqual(len(self.voxelize("--voxel-size", 1, mesh=mesh).arrays["Occupancy"]), 64)
+
+    def test_separability(self):
+        counts = {n: int(self.info(*self.SURFACE, "--separability", n, "--resolution", 40, BUNNY, "out.vti")
+                         ["filled voxels"].split()[0]) for n in (6, 26)}
+        self.assertLess(counts[6], 0.8 * counts[26])
+        default = self.info(*self.SURFACE, "--resolution", 40, BUNNY, "out.vti")
+        self.assertEqual(default["filled voxels"].split()[0], str(counts[26]))
+
+    def test_backends(self):
+        for backend in "compute", "raster":
+            report = self.info(*self.SURFACE, *self.GRID, "--backend", backend, self.mesh(), "out.vti")
+            self.assertEqual(report["backend"], backend)
+            self.assertEqual(report["filled voxels"].split()[0], str(self.SHELL))
+
+    def test_outputs(self):
+        mesh = self.box_mesh()
+        reports, found = [], []
+        for name in "a.vti", "b.vtp", "c.htg", "D.VTP":
+            with self.subTest(name):
+                report = self.info(*self.SURFACE, *self.GRID, "--attributes", "Position,Height,Side", mesh, name)
+                reports.append({key: value for key, value in report.items() if " ms" not in value})
+                voxels = READERS[Path(name).suffix.lower()](self.folder / name)
+                found.append([voxels.of(array) for array in ("Position", "Height", "Side")])
+        self.assertEqual(reports, 4 * reports[:1])
+        self.assertEqual(reports[0]["voxels"], "5 x 7 x 9")
+        self.assertEqual(reports[0]["filled voxels"].split()[0], str(self.SHELL))
+        self.assertEqual(found, 4 * found[:1])
+        self.assertEqual(len(found[0][0]), self.SHELL)
+        for center, position in found[0][0].items():
+            for x, low, high, value in zip(center, LOW, HIGH, position):
+                self.assertAlmostEqual(value, min(max(x, low), high), delta=0.3)
+        self.assertEqual(self.names(), ["D.VTP", "a.vti", "b.vtp", "box.vtp", "c.htg"])
+
+    def test_cells_and_bits(self):
+        mesh = self.box_mesh()
+        wanted = self.voxelize(*self.GRID, "--attributes", "Height", mesh=mesh).of("Height")
+        for options in ["--cells"], ["--type", "bit"], ["--value", 9]:
+            with self.subTest(options):
+                voxels = self.voxelize(*self.GRID, "--attributes", "Height", *options, mesh=mesh)
+                self.assertEqual(voxels.of("Height"), wanted)
+
+    def test_voxel_list_has_indices(self):
+        voxels = self.voxelize(*self.GRID, mesh=self.mesh(), output="out.vtp")
+        for center, index in voxels.of("VoxelIndex").items():
+            self.assertEqual(center, tuple(low + 0.5 * i for low, i in zip(LOW, index)))
+
+    def test_reference(self):
+        image = vtkImageData()
+        image.SetExtent(5, 24, -3, 16, 2, 21)
+        image.SetSpacing(0.31, 0.37, 0.43)
+        image.SetOrigin(0.7, 3.4, 0.9)
+        found = []
+        for turn in 0, 30:
+            image.SetDirectionMatrix(turned(turn))
+            image.AllocateScalars(3, 1)
+            written(vtkXMLImageDataWriter(), image, self.folder / f"turned{turn}.vti")
+            options = ["--reference", f"turned{turn}.vti"]
+            dense, listed = (self.voxelize(*options, mesh=self.mesh(), output=name).centers
+                             for name in ("a.vti", "a.vtp"))
+            self.assertTrue(dense)
+            self.assertLess(max(abs(x - y) for a, b in zip(dense, listed) for x, y in zip(a, b)), 1e-5)
+            self.assertEqual(len(dense), len(listed))
+        self.complain(VOXELIZATION, *self.SURFACE, "--reference", "turned30.vti", self.mesh(), "out.htg",
+                      naming=["rotated"])
+
+    def test_combinations(self):
+        mesh = self.box_mesh()
+        first, low, middle, high = (
+            self.voxelize(*self.GRID, "--attributes", "Side", "--combine", name, mesh=mesh).of("Side")
+            for name in ("first", "min", "average", "max"))
+        # The sides meet here that have the numbers 0, 2 and 4.
+        self.assertEqual((first[LOW], low[LOW], high[LOW]), ((0,), (0,), (4,)))
+        for center, (value,) in middle.items():
+            self.assertLessEqual(low[center][0], value + 1e-5)
+            self.assertLessEqual(value, high[center][0] + 1e-5)
+            self.assertEqual(first[center], low[center])  # sides are numbered in the order of the mesh
+
+    def test_colors_of_ply(self):
+        for output in "out.vti", "out.vtp", "out.htg":
+            with self.subTest(output):
+                colors = self.voxelize(*self.GRID, "--attributes", "RGB", output=output,
+                                       mesh=self.file("box.ply", ply_with_colors())).of("RGB")
+                for (x, *_), color in colors.items():
+                    green = (min(max(x, LOW[0]), HIGH[0]) - LOW[0]) / (HIGH[0] - LOW[0])
+                    # Triangles that end within the voxel have their nearest points beside its centre.
+                    self.assertAlmostEqual(color[0], 255 * (1 - green), delta=255 * 0.125)
+                    self.assertAlmostEqual(color[1], 255 - color[0], delta=1)
+                    self.assertEqual(color[2], 0)
+
+    def test_arrays_of_legacy_files(self):
+        for binary in False, True:
+            writer = vtkPolyDataWriter()
+            (writer.SetFileTypeToBinary if binary else writer.SetFileTypeToASCII)()
+            mesh = self.box_mesh("box.vtk", writer)
+            for name in "Position", "Height", "Side":
+                with self.subTest(binary=binary, name=name):
+                    voxels = self.voxelize(*self.GRID, "--attributes", name, mesh=mesh)
+                    self.assertEqual(set(voxels.arrays), {"Occupancy", name})
+
+    def test_second_scalars_of_legacy_files(self):
+        points, triangles = box()
+        lines = ["# vtk DataFile Version 3.0", "box", "ASCII", "DATASET POLYDATA", f"POINTS {len(points)} float"]
+        lines += ["%g %g %g" % p for p in points]
+        lines += [f"POLYGONS {len(triangles)} {4 * len(triangles)}"] + ["3 %d %d %d" % t for t in triangles]
+        lines += [f"POINT_DATA {len(points)}"]
+        for name in "first", "second":
+            lines += [f"SCALARS {name} float 1", "LOOKUP_TABLE default"] + ["7"] * len(points)
+        mesh = self.file("box.vtk", ("\n".join(lines) + "\n").encode())
+        values = self.voxelize(*self.GRID, "--attributes", "first,second", mesh=mesh).of("second")
+        self.assertEqual(set(values.values()), {(7.0,)})
+
+    def check_texture(self, mesh, image, delta=1, **more):
+        voxels = self.voxelize("--voxel-size", 0.5, "--texture", image, mesh=mesh, **more)
+        seen = set()
+        for (x, y, _), color in voxels.of("Texture").items():
+            wanted = color_of_wall(x, y)
+            if wanted:
+                seen.add(wanted)
+                for value, channel in zip(color, wanted):
+                    self.assertAlmostEqual(value, channel, delta=delta, msg=(x, y))
+        self.assertEqual(len(seen), 4)
+
+    def test_texture(self):
+        image = self.file("checks.png", checks())
+        for name, content in (("wall.obj", textured_obj()), ("unused.obj", textured_obj(unused=3)),
+                              ("materials.obj", textured_obj(materials=True)),
+                              ("both.obj", textured_obj(2, True)), ("wall.gltf", textured_gltf())):
+            with self.subTest(name):
+                self.check_texture(self.file(name, content), image)
+        for output in "out.vtp", "out.htg":
+            with self.subTest(output):
+                self.check_texture("wall.obj", image, output=output)
+
+    def test_texture_of_ply(self):
+        points, triangles = wall()
+        text = ply_text(points, triangles).decode().replace(
+            "property float z\n", "property float z\nproperty float u\nproperty float v\n")
+        for p, uv in zip(points, SQUARE):
+            text = text.replace("\n%g %g %g\n" % p, "\n%g %g %g %g %g\n" % (*p, *uv))
+        self.check_texture(self.file("wall.ply", text.encode()), self.file("checks.png", checks()))
+
+    def test_texture_as_jpeg(self):
+        reader = vtkPNGReader()
+        reader.SetFileName(str(self.file("checks.png", checks(64))))
+        mesh = self.file("wall.obj", textured_obj())
+        for name in "checks.jpg", "CHECKS.JPEG":
+            writer = vtkJPEGWriter()
+            writer.SetInputConnection(reader.GetOutputPort())
+            writer.SetFileName(str(self.folder / name))
+            writer.SetQuality(100)
+            writer.Write()
+            self.check_texture(mesh, name, delta=12)
+
+    def test_kinds_of_png(self):
+        mesh = self.file("wall.obj", textured_obj())
+        palette = png_chunk(b"PLTE", bytes((*RED, *GREEN, *BLUE, *WHITE)))
+        rows = [bytes([2] * 8 + [3] * 8)] * 8 + [bytes([0] * 8 + [1] * 8)] * 8
+        self.check_texture(mesh, self.file("palette.png", png(rows, color=3, rest=palette)))
+        gray = self.file("gray.png", png([bytes([200] * 4)] * 4, color=0))
+        values = self.voxelize("--voxel-size", 1, "--texture", gray, mesh=mesh).of("Texture").values()
+        self.assertEqual(set(values), {(200.0,)})
+        bits = self.file("bits.png", png([b"\xff"] * 8, depth=1, color=0))
+        values = self.voxelize("--voxel-size", 1, "--texture", bits, mesh=mesh).of("Texture").values()
+        self.assertEqual(set(values), {(255.0,)})
+
+    def refuse(self, code, *words, naming):
+        self.file("out.vti", b"old")
+        for output in "out.vti", "out.vtp", "out.htg":
+            with self.subTest(words=words, output=output):
+                self.complain(code, *self.SURFACE, *words, output, naming=naming)
+
+    def test_bad_attributes(self):
+        mesh = self.box_mesh()
+        self.refuse(VOXELIZATION, "--attributes", "Hight", mesh, naming=['"Hight"', "Position, Height, Side"])
+        self.refuse(VOXELIZATION, "--attributes", "Height,Hight", mesh, naming=['"Hight"'])
+        self.refuse(VOXELIZATION, "--attributes", "RGB", self.mesh(), naming=['"RGB"', "no arrays"])
+        data = polydata_with_arrays()
+        names = vtkStringArray()
+        names.SetName("Name")
+        for i in range(data.GetNumberOfPoints()):
+            names.InsertNextValue(f"point {i}")
+        data.GetPointData().AddArray(names)
+        data.GetPointData().GetArray("Height").SetValue(3, float("nan"))
+        written(vtkXMLPolyDataWriter(), data, self.folder / "names.vtp")
+        self.refuse(VOXELIZATION, "--attributes", "Name", "names.vtp", naming=['"Name"', "numbers"])
+        self.refuse(VOXELIZATION, "--attributes", "Height", "names.vtp", naming=['"Height"', "NaN"])
+
+    def test_array_of_a_wrong_length(self):
+        writer = vtkXMLPolyDataWriter()
+        writer.SetDataModeToAscii()
+        text = (self.folder / self.box_mesh(writer=writer)).read_text()
+        head, values = text.split('Name="Height"')
+        end = values.index("<", values.index(">") + 1)
+        short = values[:end].rstrip()
+        short = short[:short.rindex(" ")] + "\n" + values[end:]
+        self.file("short.vtp", (head + 'Name="Height"' + short).encode())
+        self.refuse(INPUT, "--attributes", "Height", "short.vtp", naming=["short.vtp", "Height"])
+
+    def test_texture_without_coordinates(self):
+        image = self.file("checks.png", checks())
+        for name, content in ("box.ply", ply_binary(*box())), ("box.obj", obj(*box())), ("box.glb", glb()):
+            self.refuse(VOXELIZATION, "--texture", image, self.file(name, content),
+                        naming=["no texture coordinates"])
+
+    def test_bad_textures(self):
+        mesh = self.file("wall.obj", textured_obj())
+        good = checks()
+        (self.folder / "folder.png").mkdir()
+        self.refuse(INPUT, "--texture", "none.png", mesh, naming=["none.png", "No such file"])
+        self.refuse(INPUT, "--texture", "folder.png", mesh, naming=["folder.png", "folder"])
+        self.refuse(INPUT, "--texture", mesh, mesh, naming=["wall.obj", ".png", ".jpg"])
+        header = good[:33]
+        damaged = {
+            "empty": (b"", "empty"),
+            "text": (b"no picture\n" * 20, "no PNG"),
+            "head": (good[:20], "truncated"),
+            "half": (good[:len(good) // 2], "truncated"),
+            "end": (good[:-1], "truncated"),
+            "sum": (good[:-20] + bytes([good[-20] ^ 1]) + good[-19:], "damaged"),
+            "large": (good[:8] + png_chunk(b"IHDR", struct.pack(">2I5B", 30000, 30000, 8, 2, 0, 0, 0))
+                      + good[33:], "fewer pixels"),
+            "larger": (good[:8] + png_chunk(b"IHDR", struct.pack(">2I5B", 17, 16, 8, 2, 0, 0, 0))
+                       + good[33:], "damaged"),
+            "zero": (good[:8] + png_chunk(b"IHDR", struct.pack(">2I5B", 0, 16, 8, 2, 0, 0, 0))
+                     + good[33:], "header"),
+            "kind": (good[:8] + png_chunk(b"IHDR", struct.pack(">2I5B", 16, 16, 8, 5, 0, 0, 0))
+                     + good[33:], "header"),
+            "palette": (png([bytes(4)] * 4, color=3), "palette"),
+            "filter": (header + png_chunk(b"IDAT", zlib.compress((b"\5" + bytes(48)) * 16))
+                       + png_chunk(b"IEND", b""), "pixels"),
+            "none": (header + png_chunk(b"IEND", b""), "fewer pixels"),
+            "zlib": (header + png_chunk(b"IDAT", bytes(200)) + png_chunk(b"IEND", b""), "pixels"),
+            "chunk": (header + png_chunk(b"KNOW", b"") + good[33:], "chunk"),
+            "order": (good[8:33] + header, "PNG"),
+            "bits": (png([bytes(24)] * 4, depth=16), "8 bits"),
+        }
+        for name, (content, naming) in damaged.items():
+            self.file(name + ".png", content)
+            self.refuse(INPUT, "--texture", name + ".png", mesh, naming=[name + ".png", naming])
+        self.file("noise.jpg", b"no picture\n" * 20)
+        self.refuse(INPUT, "--texture", "noise.jpg", mesh, naming=["noise.jpg", "damaged"])
+
+    def test_truncated_jpeg(self):
+        reader = vtkPNGReader()
+        reader.SetFileName(str(self.file("checks.png", checks(64))))
+        writer = vtkJPEGWriter()
+        writer.SetInputConnection(reader.GetOutputPort())
+        writer.SetFileName(str(self.folder / "good.jpg"))
+        writer.Write()
+        good = (self.folder / "good.jpg").read_bytes()
+        mesh = self.file("wall.obj", textured_obj())
+        for part in 0.05, 0.5, 0.9:
+            self.file("bad.jpg", good[:int(part * len(good))])
+            self.refuse(INPUT, "--texture", "bad.jpg", mesh, naming=["bad.jpg", "damaged"])
+
+    def test_too_large_for_an_image_but_not_for_a_list(self):
+        many = ["--attributes", "Position,Height,Side", "--dimensions", "20000,20000,20000"]
+        self.complain(VOXELIZATION, *self.SURFACE, *many, self.box_mesh(), "out.vti", naming=["MiB"])
+
+    def test_nothing_set(self):
+        for output in "out.vti", "out.vtp", "out.htg":
+            voxels = self.voxelize("--bounds", "50,60,50,60,50,60", "--resolution", 8, "--attributes", "Height",
+                                   mesh=self.box_mesh(), output=output, warnings=["no voxel is set"])
+            self.assertEqual(voxels.centers, [])
+
+
 class TestOutput(ProgramTest):
     def test_formats(self):
         for name, read in ("a.vti", read_vti), ("b.mha", read_meta), ("c.mhd", read_meta), (
@@ -618,18 +1087,36 @@ class TestOutput(ProgramTest):
             with self.subTest(name):
                 self.file(name, b"old")
                 self.complain(OUTPUT, BUNNY, name, preexec_fn=limit(4096), naming=[name, "File too large"])
+        for name in "out.vtp", "out.htg":
+            with self.subTest(name):
+                self.file(name, b"old")
+                self.complain(OUTPUT, "--method", "surface", BUNNY, name, preexec_fn=limit(4096),
+                              naming=[name, "File too large"])
         with self.subTest("picture"):
             self.complain(OUTPUT, "--resolution", 16, "--picture", "out.png", BUNNY, "out.vti",
                       preexec_fn=limit(20000), naming=["out.png", "File too large"])
 
     def test_disk_full_at_the_very_end(self):
-        self.succeed("--resolution", 16, BUNNY, "full.vti")
-        size = (self.folder / "full.vti").stat().st_size
-        for missing in 1, 20, 300:
-            with self.subTest(missing=missing):
-                self.complain(OUTPUT, "--resolution", 16, BUNNY, "out.vti", naming=["out.vti"],
-                          preexec_fn=lambda: resource.setrlimit(
-                              resource.RLIMIT_FSIZE, (size - missing,) * 2))
+        options = ["--method", "surface", "--resolution", 16, "--attributes", "Normals"]
+        for extension in ".vti", ".vtp", ".htg":
+            self.succeed(*options, self.normals(), "full" + extension)
+            size = (self.folder / ("full" + extension)).stat().st_size
+            for missing in 1, 20, 300:
+                with self.subTest(extension=extension, missing=missing):
+                    name = "out" + extension
+                    self.complain(OUTPUT, *options, "normals.vtp", name, naming=[name],
+                                  preexec_fn=lambda: resource.setrlimit(
+                                      resource.RLIMIT_FSIZE, (size - missing,) * 2))
+
+    def normals(self):
+        """The box, whose normals at its points point outwards."""
+        points, triangles = box()
+        data = polydata(points, triangles)
+        middle = [(low + high) / 2 for low, high in zip(LOW, HIGH)]
+        normals = [tuple(x - m for x, m in zip(p, middle)) for p in points]
+        data.GetPointData().AddArray(named(vtkFloatArray(), "Normals", normals))
+        written(vtkXMLPolyDataWriter(), data, self.folder / "normals.vtp")
+        return "normals.vtp"
 
     def test_signals_leave_nothing(self):
         self.file("out.vti", b"old")
@@ -693,6 +1180,33 @@ class TestPicture(ProgramTest):
             pictures.append((self.folder / "out.png").read_bytes())
         self.assertEqual(len(set(pictures)), 1)
 
+    def test_surfaces_look_the_same_from_all_outputs(self):
+        mesh = self.file("wall.obj", textured_obj())
+        image = self.file("checks.png", checks())
+        pictures = []
+        for output in "out.vti", "out.vtp", "out.htg":
+            self.succeed("--method", "surface", "--resolution", 16, "--texture", image, "--up", "z",
+                         "--picture", "out.png", mesh, output)
+            pictures.append((self.folder / "out.png").read_bytes())
+        self.assertEqual(len(set(pictures)), 1)
+        _, _, pixels = self.pixels("out.png")
+        for name, channel in ("red", 0), ("green", 1), ("blue", 2):
+            colored = sum(p[channel] - max(p[:channel] + p[channel + 1:]) > 60 for p in pixels)
+            self.assertGreater(colored / len(pixels), 0.05, name)
+
+    def test_attributes_as_colors(self):
+        points, triangles = box((0, 0, 0), (1, 1, 4))
+        data = polydata(points, triangles)
+        data.GetPointData().AddArray(named(vtkFloatArray(), "Height", [(p[2],) for p in points]))
+        written(vtkXMLPolyDataWriter(), data, self.folder / "pole.vtp")
+        self.succeed("--method", "surface", "--voxel-size", 0.25, "--attributes", "Height", "--up", "z",
+                     "--picture", "out.png", "pole.vtp", "out.vti")
+        width, height, pixels = self.pixels("out.png")
+        middle = width // 2
+        low, high = (pixels[width * int(part * height) + middle] for part in (0.15, 0.85))
+        self.assertGreater(low[2], low[0] + 60)   # blue below; rows of the image go up
+        self.assertGreater(high[0], high[2] + 60)
+
     def test_nothing_to_draw(self):
         self.succeed("--bounds", "50,60,50,60,50,60", "--resolution", 8, "--picture", "out.png",
                      BUNNY, "out.vti", warnings=["no voxel is set"])
@@ -738,7 +1252,8 @@ class TestUsage(ProgramTest):
     def test_help(self):
         text = self.succeed("--help")
         self.assertEqual(text, self.succeed("-h"))
-        for word in ("--resolution", "--reference", "Exit codes", "Examples", ".glb", ".mha", "128"):
+        for word in ("--resolution", "--reference", "Exit codes", "Examples", ".glb", ".mha", "128",
+                     "--method", "--attributes", "RGB", ".htg", ".jpg"):
             self.assertIn(word, text)
         self.assertLessEqual(max(map(len, text.splitlines())), 100)
 
@@ -769,6 +1284,11 @@ class TestUsage(ProgramTest):
             "--mode": ["inside", "", "Center"],
             "--fill": ["even"],
             "--axis": ["w"],
+            "--method": ["shell", "", "Surface"],
+            "--separability": ["18", "x", "-6"],
+            "--attributes": ["", "a,,b", ",a", "a,"],
+            "--combine": ["median", ""],
+            "--texture": [""],
             "--backend": ["cuda"],
             "--type": ["float"],
             "--value": ["0", "256", "-1", "x"],
@@ -789,6 +1309,39 @@ class TestUsage(ProgramTest):
 
     def test_twice(self):
         self.complain(USAGE, "--padding", 1, "--padding=1", "a.ply", "b.vti", naming=["--padding", "twice"])
+
+    def test_options_of_the_other_method(self):
+        for option in "--mode=over", "--fill=vote", "--axis=x":
+            with self.subTest(option):
+                self.complain(USAGE, "--method", "surface", option, "a.ply", "b.vti",
+                              naming=[option.split("=")[0], "--method surface", "solids"])
+        surface = ["--separability=6", "--attributes=RGB", "--texture=t.png", "--combine=min"]
+        for method in [], ["--method", "solid"]:
+            for option in surface:
+                with self.subTest(option=option, method=method):
+                    self.complain(USAGE, *method, option, "a.ply", "b.vti",
+                                  naming=[option.split("=")[0], "needs --method surface"])
+            for name in "b.vtp", "b.htg", "b.VTP":
+                with self.subTest(name=name, method=method):
+                    self.complain(USAGE, *method, "a.ply", name, naming=[name, "needs --method surface"])
+
+    def test_outputs_of_surfaces(self):
+        surface = ["--method", "surface"]
+        self.complain(USAGE, *surface, "--combine", "min", "a.ply", "b.vti",
+                      naming=["--combine", "--attributes", "--texture"])
+        for option in "--attributes=RGB", "--texture=t.png":
+            for name in "b.mha", "b.mhd", "b.MHA":
+                with self.subTest(option=option, name=name):
+                    self.complain(USAGE, *surface, option, "a.ply", name,
+                                  naming=[option.split("=")[0], name, ".vti"])
+        for option in "--cells", "--type=bit", "--type=uchar", "--value=3":
+            for name in "b.vtp", "b.htg":
+                with self.subTest(option=option, name=name):
+                    self.complain(USAGE, *surface, option, "a.ply", name,
+                                  naming=[option.split("=")[0], name, ".vti"])
+        self.complain(USAGE, *surface, "--texture", "t.png", "--picture", "t.png", "a.ply", "b.vti",
+                      naming=["--texture", "--picture", "t.png"])
+        self.complain(USAGE, *surface, "a.vtp", "a.vtp", naming=["INPUT", "OUTPUT"])
 
     def test_contradictions(self):
         resolution, dimensions = ["--resolution", "8"], ["--dimensions", "8,8,8"]

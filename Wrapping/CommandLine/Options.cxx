@@ -4,10 +4,12 @@
 
 #include "Failure.h"
 #include "FileNames.h"
-#include "ImageOutput.h"
 #include "MeshReader.h"
 #include "ReferenceImage.h"
+#include "TextureImage.h"
+#include "VoxelOutput.h"
 
+#include "vtkHybridSurfaceVoxelizer.h"
 #include "vtkSlicemapSolidVoxelizer.h"
 
 #include <algorithm>
@@ -22,7 +24,9 @@
 
 namespace
 {
-using Voxelizer = vtkSlicemapSolidVoxelizer;
+using Solid = vtkSlicemapSolidVoxelizer;
+using Surface = vtkHybridSurfaceVoxelizer;
+using Method = Options::MethodType;
 
 /// The smallest positive double: a lower bound that leaves out zero.
 constexpr double Positive = std::numeric_limits<double>::denorm_min();
@@ -108,6 +112,21 @@ public:
       this->Refuse("is not a list of " + std::to_string(count) + " numbers with commas between");
     }
     return parts;
+  }
+
+  std::vector<std::string> AsNames() const
+  {
+    std::vector<std::string> names;
+    std::istringstream text(this->Text + ",");
+    for (std::string name; std::getline(text, name, ',');)
+    {
+      if (name.empty())
+      {
+        this->Refuse("has an empty name; names stand between commas");
+      }
+      names.push_back(name);
+    }
+    return names;
   }
 
   int AsChoice(const std::vector<std::pair<std::string, int>>& choices) const
@@ -200,6 +219,28 @@ const std::vector<Group>& GetGroups()
       } },
     { "Voxels",
       {
+        { "--method", "METHOD",
+          "solid    what lies inside of a closed mesh (default)\n"
+          "surface  what any mesh touches, with attributes; needs OpenGL 4.3, which\n"
+          "         --mode boundary of solids does not",
+          [](Options& o, const Argument& a)
+          {
+            o.Method =
+              static_cast<Method>(a.AsChoice({ { "solid", static_cast<int>(Method::Solid) },
+                { "surface", static_cast<int>(Method::Surface) } }));
+          } },
+        { "--backend", "BACKEND",
+          "auto, raster (OpenGL 3.2) or compute (OpenGL 4.3); auto is compute where there\n"
+          "is such an OpenGL (default). No display and no GPU are needed.",
+          [](Options& o, const Argument& a)
+          {
+            o.Backend = a.AsChoice(
+              { { "auto", vtkVoxelizer::BACKEND_AUTO }, { "raster", vtkVoxelizer::BACKEND_RASTER },
+                { "compute", vtkVoxelizer::BACKEND_COMPUTE } });
+          } },
+      } },
+    { "Solids",
+      {
         { "--mode", "MODE",
           "which voxels are set:\n"
           "center    those whose centre is inside (default)\n"
@@ -208,10 +249,9 @@ const std::vector<Group>& GetGroups()
           "boundary  those that the surface touches",
           [](Options& o, const Argument& a)
           {
-            o.Mode = a.AsChoice(
-              { { "center", Voxelizer::MODE_CENTER }, { "over", Voxelizer::MODE_OVER_CONSERVATIVE },
-                { "under", Voxelizer::MODE_UNDER_CONSERVATIVE },
-                { "boundary", Voxelizer::MODE_BOUNDARY } });
+            o.Mode = a.AsChoice({ { "center", Solid::MODE_CENTER },
+              { "over", Solid::MODE_OVER_CONSERVATIVE },
+              { "under", Solid::MODE_UNDER_CONSERVATIVE }, { "boundary", Solid::MODE_BOUNDARY } });
           } },
         { "--fill", "RULE",
           "what is inside where surfaces overlap or have holes:\n"
@@ -220,26 +260,43 @@ const std::vector<Group>& GetGroups()
           "vote      parity along all three axes, the majority wins: for dirty meshes",
           [](Options& o, const Argument& a)
           {
-            o.FillRule = a.AsChoice({ { "parity", Voxelizer::FILL_RULE_PARITY },
-              { "nonzero", Voxelizer::FILL_RULE_NON_ZERO },
-              { "vote", Voxelizer::FILL_RULE_VOTE } });
+            o.FillRule = a.AsChoice({ { "parity", Solid::FILL_RULE_PARITY },
+              { "nonzero", Solid::FILL_RULE_NON_ZERO }, { "vote", Solid::FILL_RULE_VOTE } });
           } },
         { "--axis", "AXIS",
           "auto, x, y or z: the axis along which crossings are counted; auto is the one\n"
           "with the least work (default)",
           [](Options& o, const Argument& a)
           {
-            o.ColumnAxis = a.AsChoice(
-              { { "auto", Voxelizer::COLUMN_AXIS_AUTO }, { "x", Voxelizer::COLUMN_AXIS_X },
-                { "y", Voxelizer::COLUMN_AXIS_Y }, { "z", Voxelizer::COLUMN_AXIS_Z } });
+            o.ColumnAxis =
+              a.AsChoice({ { "auto", Solid::COLUMN_AXIS_AUTO }, { "x", Solid::COLUMN_AXIS_X },
+                { "y", Solid::COLUMN_AXIS_Y }, { "z", Solid::COLUMN_AXIS_Z } });
           } },
-        { "--backend", "BACKEND",
-          "auto, raster (OpenGL 3.2) or compute (OpenGL 4.3); auto is compute where there\n"
-          "is such an OpenGL (default). No display and no GPU are needed.",
+      } },
+    { "Surfaces (--method surface)",
+      {
+        { "--separability", "N",
+          "26  all voxels that a triangle touches (default)\n"
+          "6   a thinner surface, which paths through faces of voxels still can't pass",
+          [](Options& o, const Argument& a) {
+            o.Separability = a.AsChoice({ { "6", 6 }, { "26", 26 } });
+          } },
+        { "--attributes", "NAME[,NAME...]",
+          "carry these arrays of the points or cells over to the voxels; VTK calls the\n"
+          "colours of a .ply file RGB or RGBA, normals Normals",
+          [](Options& o, const Argument& a) { o.Attributes = a.AsNames(); } },
+        { "--texture", "IMAGE",
+          "colour the voxels by this image and the texture coordinates of the mesh, as the\n"
+          "attribute Texture: @TEXTURES@",
+          [](Options& o, const Argument& a) { o.Texture = a.AsFile(); } },
+        { "--combine", "HOW",
+          "what becomes of the values of several triangles in one voxel: average\n"
+          "(default), min, max, or first, in the order of the mesh",
           [](Options& o, const Argument& a)
           {
-            o.Backend = a.AsChoice({ { "auto", Voxelizer::BACKEND_AUTO },
-              { "raster", Voxelizer::BACKEND_RASTER }, { "compute", Voxelizer::BACKEND_COMPUTE } });
+            o.Combination =
+              a.AsChoice({ { "average", Surface::COMBINE_AVERAGE }, { "min", Surface::COMBINE_MIN },
+                { "max", Surface::COMBINE_MAX }, { "first", Surface::COMBINE_FIRST } });
           } },
       } },
     { "Output",
@@ -252,15 +309,17 @@ const std::vector<Group>& GetGroups()
           [](Options& o, const Argument& a) { o.Value = a.AsInteger(1, 255); } },
         { "--cells", nullptr, "voxels are the cells of the image, instead of its points",
           [](Options& o, const Argument&) { o.Cells = true; } },
-        { "--picture", "FILE.png", "also draw the voxels that are set",
+        { "--picture", "FILE.png",
+          "also draw the voxels that are set, coloured by the texture or else by the first\n"
+          "attribute: numbers from blue, the least, to red, vectors by their length",
           [](Options& o, const Argument& a) { o.Picture = a.AsFile(); } },
         { "--up", "AXIS", "x, y or z: the axis that points up in the picture (default: y)",
           [](Options& o, const Argument& a) {
             o.UpAxis = a.AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } });
           } },
         { "--info", nullptr,
-          "print triangles, grid, filled voxels, volume, leaking columns, times and the\n"
-          "OpenGL renderer, one a line, on the standard output",
+          "print triangles, grid, filled voxels and their volume, leaking columns of\n"
+          "solids, times and the OpenGL renderer, one a line, on the standard output",
           [](Options& o, const Argument&) { o.Info = true; } },
         { "--quiet", nullptr, "no progress bar and no warnings, errors only",
           [](Options& o, const Argument&) { o.Quiet = true; } },
@@ -307,29 +366,102 @@ void RefuseTogether(const Names& given, const std::string& one,
   }
 }
 
-void RefuseSameFile(const std::string& one, const std::string& file, const std::string& other,
-  const std::string& name)
+/// A file and what it is to the command line.
+struct NamedFile
 {
-  if (FileNames::AreSame(file, name))
-  {
-    Refuse(one + " and " + other + " are the same file, " + file);
-  }
-}
+  std::string Role;
+  std::string Name;
+};
 
 void CheckFiles(const Options& options)
 {
-  RefuseSameFile("INPUT", options.Input, "OUTPUT", options.Output);
-  if (options.Reference)
+  const std::pair<const char*, std::optional<std::string>> files[] = {
+    { "INPUT", options.Input },
+    { "--reference", options.Reference },
+    { "--texture", options.Texture },
+    { "OUTPUT", options.Output },
+    { "--picture", options.Picture },
+  };
+  std::vector<NamedFile> before;
+  for (const auto& [role, name] : files)
   {
-    RefuseSameFile("--reference", *options.Reference, "OUTPUT", options.Output);
-  }
-  if (options.Picture)
-  {
-    RefuseSameFile("INPUT", options.Input, "--picture", *options.Picture);
-    RefuseSameFile("OUTPUT", options.Output, "--picture", *options.Picture);
-    if (options.Reference)
+    const bool isWritten = role == std::string("OUTPUT") || role == std::string("--picture");
+    for (const NamedFile& other : before)
     {
-      RefuseSameFile("--reference", *options.Reference, "--picture", *options.Picture);
+      if (isWritten && name && FileNames::AreSame(*name, other.Name))
+      {
+        Refuse(other.Role + " and " + role + " are the same file, " + other.Name);
+      }
+    }
+    if (name)
+    {
+      before.push_back({ role, *name });
+    }
+  }
+}
+
+void CheckMethod(const Options& options, const Names& given)
+{
+  const bool isSolid = options.Method == Method::Solid;
+  for (const char* option : { "--mode", "--fill", "--axis" })
+  {
+    if (!isSolid && given.count(option))
+    {
+      Refuse(std::string(option) + " is for solids and does not go with --method surface");
+    }
+  }
+  for (const char* option : { "--separability", "--attributes", "--texture", "--combine" })
+  {
+    if (isSolid && given.count(option))
+    {
+      Refuse(std::string(option) + " needs --method surface");
+    }
+  }
+  if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
+  {
+    Refuse("--combine is for the values that --attributes and --texture ask for");
+  }
+}
+
+void RefuseWithOutput(
+  const Names& given, const char* option, const Options& options, const std::string& why)
+{
+  if (given.count(option))
+  {
+    Refuse(std::string(option) + " and OUTPUT " + options.Output +
+      " contradict each other: " + why + "; write a .vti file");
+  }
+}
+
+void CheckOutput(const Options& options, const Names& given)
+{
+  const auto kind = VoxelOutput::GetKind(options.Output);
+  if (kind != VoxelOutput::Kind::Image)
+  {
+    const std::string what =
+      kind == VoxelOutput::Kind::List ? "a list of voxels" : "an octree of voxels";
+    if (options.Method != Method::Surface)
+    {
+      Refuse("OUTPUT " + options.Output + " is " + what + ", which needs --method surface");
+    }
+    for (const char* option : { "--type", "--value", "--cells" })
+    {
+      RefuseWithOutput(given, option, options, what + " is no image");
+    }
+  }
+  if (options.ScalarType == VTK_BIT && !VoxelOutput::HasBits(options.Output))
+  {
+    RefuseWithOutput(given, "--type", options, "this format has no bits");
+  }
+  if (!VoxelOutput::HasCells(options.Output))
+  {
+    RefuseWithOutput(given, "--cells", options, "this format has no cells");
+  }
+  for (const char* option : { "--attributes", "--texture" })
+  {
+    if (!VoxelOutput::HasAttributes(options.Output))
+    {
+      RefuseWithOutput(given, option, options, "this format has no attributes");
     }
   }
 }
@@ -343,12 +475,12 @@ void CheckTogether(const Options& options, const Names& given)
     { "--resolution", "--dimensions", "--voxel-size", "--bounds", "--padding" },
     "the grid is that of the reference image");
 
-  if (options.Mode == Voxelizer::MODE_BOUNDARY)
+  if (options.Mode == Solid::MODE_BOUNDARY)
   {
     RefuseTogether(
       given, "--mode", { "--fill", "--axis" }, "the mode boundary looks at the surface alone");
   }
-  if (options.FillRule == Voxelizer::FILL_RULE_VOTE)
+  if (options.FillRule == Solid::FILL_RULE_VOTE)
   {
     RefuseTogether(given, "--fill", { "--axis" }, "the rule vote takes all three axes");
   }
@@ -359,16 +491,6 @@ void CheckTogether(const Options& options, const Names& given)
   if (options.UpAxis && !options.Picture)
   {
     Refuse("--up is for the picture that --picture asks for");
-  }
-  if (options.ScalarType == VTK_BIT && !ImageOutput::HasBits(options.Output))
-  {
-    Refuse("--type bit and OUTPUT " + options.Output +
-      " contradict each other: this format has no bits; write a .vti file");
-  }
-  if (options.Cells && !ImageOutput::HasCells(options.Output))
-  {
-    Refuse("--cells and OUTPUT " + options.Output +
-      " contradict each other: this format has no cells; write a .vti file");
   }
 }
 
@@ -416,7 +538,8 @@ void PrintDefinition(std::ostream& out, const Definition& definition)
   out << head;
   std::string indent;
   std::istringstream lines(
-    Replaced(definition.Help, "@REFERENCES@", "any of " + ReferenceImage::GetExtensions()));
+    Replaced(Replaced(definition.Help, "@REFERENCES@", "any of " + ReferenceImage::GetExtensions()),
+      "@TEXTURES@", TextureImage::GetExtensions()));
   for (std::string line; std::getline(lines, line); indent = "\n" + std::string(column, ' '))
   {
     out << indent << line;
@@ -482,22 +605,27 @@ Options Options::Parse(const std::vector<std::string>& words)
   }
   StoreFiles(options, files);
   CheckFiles(options);
+  CheckMethod(options, given);
   CheckTogether(options, given);
+  CheckOutput(options, given);
   return options;
 }
 
 std::string Options::GetHelp()
 {
   std::ostringstream out;
-  out
-    << "Usage: vtkvoxelize [OPTIONS] INPUT OUTPUT\n\n"
-       "Turns a mesh into an image of voxels, solid by default, on the graphics processor or what\n"
-       "stands in for it.\n\n"
-       "  INPUT             the mesh: "
-    << MeshReader::GetExtensions()
-    << "\n"
-       "  OUTPUT            the image: "
-    << ImageOutput::GetExtensions() << "\n";
+  out << "Usage: vtkvoxelize [OPTIONS] INPUT OUTPUT\n\n"
+         "Turns a mesh into voxels, solid by default, on the graphics processor or what stands in\n"
+         "for it.\n\n"
+         "  INPUT             the mesh: "
+      << MeshReader::GetExtensions()
+      << "\n"
+         "  OUTPUT            the voxels: "
+      << VoxelOutput::GetExtensions()
+      << "\n"
+         "                    .vti holds all there is, .mha and .mhd the set voxels alone; with\n"
+         "                    --method surface also .vtp, a list of the voxels, and .htg, an\n"
+         "                    octree, for grids too large to be kept as images\n";
   for (const Group& group : GetGroups())
   {
     out << "\n" << group.Title << ":\n";
@@ -512,11 +640,14 @@ std::string Options::GetHelp()
        "  vtkvoxelize --resolution 256 --picture part.png --info part.stl part.vti\n"
        "  vtkvoxelize --fill vote --voxel-size 0.5 scan.obj scan.mha\n"
        "  vtkvoxelize --reference ct.nrrd --value 3 liver.vtp liver.mha\n"
+       "  vtkvoxelize --method surface --attributes RGB --resolution 1024 scan.ply scan.vtp\n"
+       "  vtkvoxelize --method surface --texture house.jpg house.obj house.vti\n"
        "\nExit codes:\n"
        "  0  all is well\n"
        "  1  the command line makes no sense\n"
-       "  2  INPUT or the reference image can't be read, or is no mesh\n"
-       "  3  voxelization failed: no OpenGL, a grid too large for the memory\n"
+       "  2  INPUT, the reference image or the texture can't be read, or INPUT is no mesh\n"
+       "  3  voxelization failed: no OpenGL, a grid too large for the memory, an attribute or\n"
+       "     texture coordinates that the mesh has not\n"
        "  4  OUTPUT or the picture can't be written\n"
        "Unless all is well, files that were there before are left as they were, and no others are\n"
        "made.\n";

@@ -15,6 +15,12 @@
 
 struct Options
 {
+  enum class MethodType
+  {
+    Solid,
+    Surface
+  };
+
   std::string Input;
   std::string Output;
 
@@ -25,14 +31,26 @@ struct Options
   std::optional<int> Padding;
   std::optional<std::string> Reference;
 
+  MethodType Method = MethodType::Solid;
+
   ///@{
   /**
-   * Constants of vtkSlicemapSolidVoxelizer and vtkVoxelizer; unset is their default.
+   * Constants of the voxelizers of this module; unset is their default.
    */
-  std::optional<int> Mode;
+  std::optional<int> Backend;
+  std::optional<int> Mode; // solids, as the next two
   std::optional<int> FillRule;
   std::optional<int> ColumnAxis;
-  std::optional<int> Backend;
+  std::optional<int> Separability; // surfaces, as the next
+  std::optional<int> Combination;
+  ///@}
+
+  ///@{
+  /**
+   * What surfaces carry over to their voxels: arrays, and an image in a file.
+   */
+  std::vector<std::string> Attributes;
+  std::optional<std::string> Texture;
   ///@}
 
   std::optional<int> ScalarType;

@@ -113,13 +113,13 @@ double Soften(double value)
   return 1.0 - std::exp(-1.25 * value);
 }
 
-Color ShadeVoxel(const Light& light)
+Color ShadeVoxel(const Color& own, const Light& light)
 {
   Color color;
   for (const int channel : { 0, 1, 2 })
   {
-    color[channel] = Soften(VoxelColor[channel] *
-      (1.35 * SkyColor[channel] * light.Sky + 2.0 * SunColor[channel] * light.Sun));
+    color[channel] = Soften(
+      own[channel] * (1.35 * SkyColor[channel] * light.Sky + 2.0 * SunColor[channel] * light.Sun));
   }
   return color;
 }
@@ -312,8 +312,9 @@ vtkSmartPointer<vtkActor> MakeVoxels(
       {
         const Face& face = faces[i];
         const glm::dvec3 normal = GetNormal(scene, face.Axis, face.Side);
-        const Color color =
-          ShadeVoxel(lighting.GetLight(face.GetPoint(0.5, 0.5, LiftOfPlates), normal));
+        const auto& [x, y, z] = face.Voxel;
+        const Color color = ShadeVoxel(scene.GetColor(x, y, z).value_or(VoxelColor),
+          lighting.GetLight(face.GetPoint(0.5, 0.5, LiftOfPlates), normal));
         for (std::size_t plate = 0; plate < plates; ++plate)
         {
           const double low = plate == 0 ? 0.0 : WidthOfSeams;
@@ -420,7 +421,8 @@ vtkSmartPointer<vtkImageData> Render(vtkRenderWindow* window, const std::array<i
 }
 }
 
-vtkSmartPointer<vtkImageData> Picture::Draw(vtkImageData* voxels, int upAxis)
+vtkSmartPointer<vtkImageData> Picture::Draw(
+  const VoxelSet& voxels, const std::string& attribute, int upAxis)
 {
   vtkSmartPointer<vtkRenderWindow> window;
   window.TakeReference(vtkVoxelContext::NewHeadlessRenderWindow());
@@ -431,7 +433,7 @@ vtkSmartPointer<vtkImageData> Picture::Draw(vtkImageData* voxels, int upAxis)
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1.0, 1.0, 1.0);
   window->AddRenderer(renderer);
-  const VoxelScene scene(voxels);
+  const VoxelScene scene(voxels, attribute);
   const View view(upAxis);
   const auto faces = FindFaces(scene, view);
   std::array<int, 2> size = { LongestSide, LongestSide };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Picture.h
- * Draws the voxels of an image that are set.
+ * Draws set voxels.
  */
 
 #ifndef Picture_h
@@ -12,15 +12,18 @@
 
 #include <string>
 
+class VoxelSet;
 class vtkImageData;
 
 namespace Picture
 {
 /**
  * The voxels as small cubes, seen at a slant from above, on a white floor that they shade; cropped
- * to them. The axis upAxis (0, 1, 2) points up. Null when there is no OpenGL to draw with.
+ * to them, in the colours of the attribute, if there is one of this name. The axis upAxis (0, 1, 2)
+ * points up. Null when there is no OpenGL to draw with.
  */
-vtkSmartPointer<vtkImageData> Draw(vtkImageData* voxels, int upAxis);
+vtkSmartPointer<vtkImageData> Draw(
+  const VoxelSet& voxels, const std::string& attribute, int upAxis);
 
 /**
  * Writes a picture as PNG to the staged file. Throws Failure with ExitCode::Output, which names the

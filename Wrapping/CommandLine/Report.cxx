@@ -32,11 +32,10 @@ std::string WithPrecision(double value, int digits)
 }
 }
 
-void Report::Describe(vtkSlicemapSolidVoxelizer* voxelizer)
+void Report::Describe(vtkVoxelizer* voxelizer, vtkImageData* grid)
 {
-  vtkImageData* image = voxelizer->GetOutput();
   int dimensions[3];
-  image->GetDimensions(dimensions);
+  grid->GetDimensions(dimensions);
   const bool cells = voxelizer->GetOutputAttributeType() == vtkVoxelizer::ATTRIBUTE_CELL;
   double voxels = 1.0;
   std::string size;
@@ -46,20 +45,20 @@ void Report::Describe(vtkSlicemapSolidVoxelizer* voxelizer)
     voxels *= n;
     size += (size.empty() ? "" : " x ") + std::to_string(n);
   }
-  const double* spacing = image->GetSpacing();
+  const double* spacing = grid->GetSpacing();
   const vtkIdType filled = voxelizer->GetNumberOfFilledVoxels();
   const double volume = static_cast<double>(filled) * spacing[0] * spacing[1] * spacing[2] *
-    std::abs(image->GetDirectionMatrix()->Determinant());
+    std::abs(grid->GetDirectionMatrix()->Determinant());
 
   this->Add("triangles", std::to_string(voxelizer->GetNumberOfTriangles()));
   this->Add("voxels", size);
   this->Add("spacing", Join(spacing, 3));
-  this->Add("origin", Join(image->GetOrigin(), 3));
-  if (!image->GetDirectionMatrix()->IsIdentity())
+  this->Add("origin", Join(grid->GetOrigin(), 3));
+  if (!grid->GetDirectionMatrix()->IsIdentity())
   {
-    this->Add("direction", Join(image->GetDirectionMatrix()->GetData(), 9));
+    this->Add("direction", Join(grid->GetDirectionMatrix()->GetData(), 9));
   }
-  const int* extent = image->GetExtent();
+  const int* extent = grid->GetExtent();
   if (extent[0] != 0 || extent[2] != 0 || extent[4] != 0)
   {
     this->Add("first index",
@@ -70,7 +69,10 @@ void Report::Describe(vtkSlicemapSolidVoxelizer* voxelizer)
     std::to_string(filled) + " (" + WithPrecision(100.0 * static_cast<double>(filled) / voxels, 3) +
       " %)");
   this->Add("filled volume", WithPrecision(volume, 8));
-  this->Add("leaking columns", std::to_string(voxelizer->GetNumberOfLeakingColumns()));
+  if (auto* solid = vtkSlicemapSolidVoxelizer::SafeDownCast(voxelizer))
+  {
+    this->Add("leaking columns", std::to_string(solid->GetNumberOfLeakingColumns()));
+  }
   this->Add(
     "backend", voxelizer->GetUsedBackend() == vtkVoxelizer::BACKEND_COMPUTE ? "compute" : "raster");
   this->Add("renderer", voxelizer->GetRendererName());

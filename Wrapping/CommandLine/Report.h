@@ -14,7 +14,7 @@
 #include <vector>
 
 class vtkImageData;
-class vtkSlicemapSolidVoxelizer;
+class vtkVoxelizer;
 
 /// Lines of a name and a value, the values in one column.
 class Report
@@ -30,8 +30,8 @@ public:
     this->AddTime(name, time.count());
   }
 
-  /// Adds what the voxelizer did; its image holds the voxels as its cells or as its points.
-  void Describe(vtkSlicemapSolidVoxelizer* voxelizer);
+  /// Adds what the voxelizer did on a grid, whose cells or points its voxels are.
+  void Describe(vtkVoxelizer* voxelizer, vtkImageData* grid);
 
   void Print() const;
 

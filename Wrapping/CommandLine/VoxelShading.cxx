@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VoxelShading.h"
 
-#include "vtkBitArray.h"
-#include "vtkCellData.h"
+#include "VoxelColors.h"
+#include "VoxelSet.h"
+
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkMatrix3x3.h"
-#include "vtkPointData.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,73 +28,56 @@ std::vector<glm::dvec3> SpreadDirections(int count)
   }
   return directions;
 }
-
-/// Calls the function with the offset of each scalar that is not zero.
-template <typename Function>
-void ForEachSet(vtkDataArray* scalars, const Function& function)
-{
-  const vtkIdType count = scalars->GetNumberOfTuples();
-  if (auto* bits = vtkArrayDownCast<vtkBitArray>(scalars))
-  {
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      if (bits->GetValue(i) != 0)
-      {
-        function(i);
-      }
-    }
-  }
-  else if (auto* bytes = vtkArrayDownCast<vtkUnsignedCharArray>(scalars))
-  {
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      if (bytes->GetValue(i) != 0)
-      {
-        function(i);
-      }
-    }
-  }
-}
 }
 
-VoxelScene::VoxelScene(vtkImageData* image)
+VoxelScene::VoxelScene(const VoxelSet& voxels, const std::string& attribute)
 {
-  const bool cells = image->GetPointData()->GetScalars() == nullptr;
-  std::array<int, 3> dimensions;
-  image->GetDimensions(dimensions.data());
-  for (int& n : dimensions)
-  {
-    n = std::max(1, cells ? n - 1 : n);
-  }
+  const auto& dimensions = voxels.GetDimensions();
   const int longest = *std::max_element(dimensions.begin(), dimensions.end());
   const int step = (longest + MaximumDimension - 1) / MaximumDimension;
   std::transform(dimensions.begin(), dimensions.end(), this->Dimensions.begin(),
     [&](int n) { return (n + step - 1) / step; });
   this->Voxels.assign(this->GetOffset(0, 0, this->Dimensions[2]), 0);
 
-  vtkDataArray* scalars =
-    cells ? image->GetCellData()->GetScalars() : image->GetPointData()->GetScalars();
-  ForEachSet(scalars,
-    [&](vtkIdType offset)
+  std::optional<VoxelColors> colors;
+  if (vtkDataArray* values = voxels.GetAttribute(attribute))
+  {
+    colors.emplace(voxels, values);
+  }
+  voxels.ForEach(
+    [&](const VoxelSet::Index& voxel, vtkIdType tuple)
     {
-      const int i = static_cast<int>(offset % dimensions[0]);
-      const int j = static_cast<int>(offset / dimensions[0] % dimensions[1]);
-      const int k = static_cast<int>(offset / dimensions[0] / dimensions[1]);
-      this->Voxels[this->GetOffset(i / step, j / step, k / step)] = 1;
+      const auto offset = this->GetOffset(voxel[0] / step, voxel[1] / step, voxel[2] / step);
+      if (colors && this->Voxels[offset] == 0)
+      {
+        this->Colors.emplace(offset, colors->Get(tuple));
+      }
+      this->Voxels[offset] = 1;
     });
+  this->SetGeometry(voxels, step);
+}
 
+void VoxelScene::SetGeometry(const VoxelSet& voxels, int step)
+{
+  vtkImageData* grid = voxels.GetGrid();
   std::array<int, 6> extent;
-  image->GetExtent(extent.data());
-  const double shift = cells ? 0.0 : 0.5; // from a voxel's point to its low corner
-  image->TransformContinuousIndexToPhysicalPoint(
+  grid->GetExtent(extent.data());
+  const double shift = voxels.AreCells() ? 0.0 : 0.5; // from a voxel's point to its low corner
+  grid->TransformContinuousIndexToPhysicalPoint(
     extent[0] - shift, extent[2] - shift, extent[4] - shift, &this->Origin[0]);
-  const double* direction = image->GetDirectionMatrix()->GetData();
+  const double* direction = grid->GetDirectionMatrix()->GetData();
   for (const int axis : { 0, 1, 2 })
   {
-    this->ToWorldMatrix[axis] = step * image->GetSpacing()[axis] *
+    this->ToWorldMatrix[axis] = step * grid->GetSpacing()[axis] *
       glm::dvec3(direction[axis], direction[3 + axis], direction[6 + axis]);
   }
   this->FromWorldMatrix = glm::inverse(this->ToWorldMatrix);
+}
+
+std::optional<glm::dvec3> VoxelScene::GetColor(int i, int j, int k) const
+{
+  const auto found = this->Colors.find(this->GetOffset(i, j, k));
+  return found == this->Colors.end() ? std::nullopt : std::optional(found->second);
 }
 
 bool VoxelScene::IsFree(const glm::dvec3& position, const glm::dvec3& direction) const

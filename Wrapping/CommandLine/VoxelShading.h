@@ -10,25 +10,32 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
-class vtkImageData;
+class VoxelSet;
 
 /**
- * The voxels of an image that are set, for pictures: at most 400 along a side, larger grids being
+ * Set voxels, for pictures: at most 400 along a side, larger grids being
  * made coarser. Positions are in voxels; voxel (i, j, k) fills the cube from (i, j, k) to
  * (i + 1, j + 1, k + 1).
  */
 class VoxelScene
 {
 public:
-  explicit VoxelScene(vtkImageData* image);
+  /// Voxels have the colours of the attribute, if there is one of this name.
+  VoxelScene(const VoxelSet& voxels, const std::string& attribute);
 
   bool IsSet(int i, int j, int k) const
   {
     return i >= 0 && j >= 0 && k >= 0 && i < this->Dimensions[0] && j < this->Dimensions[1] &&
       k < this->Dimensions[2] && this->Voxels[this->GetOffset(i, j, k)] != 0;
   }
+
+  /// Linear red, green and blue of a set voxel, if it has any.
+  std::optional<glm::dvec3> GetColor(int i, int j, int k) const;
 
   const std::array<int, 3>& GetDimensions() const { return this->Dimensions; }
 
@@ -65,8 +72,11 @@ private:
     return (static_cast<std::size_t>(k) * this->Dimensions[1] + j) * this->Dimensions[0] + i;
   }
 
+  void SetGeometry(const VoxelSet& voxels, int step);
+
   std::array<int, 3> Dimensions{};
   std::vector<unsigned char> Voxels;
+  std::unordered_map<std::size_t, glm::dvec3> Colors; // by offset
   glm::dvec3 Origin{ 0.0 };        // world position of the first voxel's low corner
   glm::dmat3 ToWorldMatrix{ 1.0 }; // its columns are the edges of a voxel
   glm::dmat3 FromWorldMatrix{ 1.0 };

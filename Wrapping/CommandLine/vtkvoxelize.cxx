@@ -1,71 +1,36 @@
 // SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The program vtkvoxelize: reads a mesh, voxelizes it, writes an image.
+// The program vtkvoxelize: reads a mesh, voxelizes it, writes the voxels.
 #include "Failure.h"
 #include "FileNames.h"
-#include "ImageOutput.h"
 #include "MeshReader.h"
 #include "Messages.h"
 #include "Options.h"
 #include "Picture.h"
-#include "ReferenceImage.h"
 #include "Report.h"
 #include "StagedFiles.h"
 #include "Terminal.h"
+#include "VoxelOutput.h"
+#include "VoxelSet.h"
+#include "VoxelizerFactory.h"
 
 #include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkSlicemapSolidVoxelizer.h"
+#include "vtkInformation.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersion.h"
+#include "vtkVoxelizer.h"
 
 #include <iostream>
 
 namespace
 {
-void SetGrid(vtkSlicemapSolidVoxelizer* voxelizer, const Options& options, Messages& messages)
-{
-  if (options.Reference)
-  {
-    voxelizer->SetReferenceImage(ReferenceImage::Read(*options.Reference, messages));
-    return;
-  }
-  if (options.Dimensions)
-  {
-    voxelizer->SetSampleDimensions(options.Dimensions->data());
-  }
-  else if (options.VoxelSize)
-  {
-    voxelizer->SetVoxelSize(*options.VoxelSize);
-  }
-  else
-  {
-    voxelizer->SetResolution(options.Resolution.value_or(Options::DefaultResolution));
-  }
-  if (options.Bounds)
-  {
-    voxelizer->SetModelBounds(options.Bounds->data());
-  }
-  voxelizer->SetPadding(options.Padding.value_or(voxelizer->GetPadding()));
-}
+using Kind = VoxelOutput::Kind;
 
-void SetVoxels(vtkSlicemapSolidVoxelizer* voxelizer, const Options& options)
-{
-  voxelizer->SetMode(options.Mode.value_or(voxelizer->GetMode()));
-  voxelizer->SetFillRule(options.FillRule.value_or(voxelizer->GetFillRule()));
-  voxelizer->SetColumnAxis(options.ColumnAxis.value_or(voxelizer->GetColumnAxis()));
-  voxelizer->SetBackend(options.Backend.value_or(voxelizer->GetBackend()));
-  voxelizer->SetOutputScalarType(options.ScalarType.value_or(voxelizer->GetOutputScalarType()));
-  voxelizer->SetForegroundValue(options.Value.value_or(voxelizer->GetForegroundValue()));
-  if (options.Cells)
-  {
-    voxelizer->SetOutputAttributeTypeToCell();
-  }
-}
-
-void Voxelize(vtkSlicemapSolidVoxelizer* voxelizer, Messages& messages, Terminal& terminal)
+void Voxelize(vtkVoxelizer* voxelizer, Kind kind, Messages& messages, Terminal& terminal)
 {
   terminal.Watch(voxelizer, "voxelizing");
-  voxelizer->Update();
+  voxelizer->Update(static_cast<int>(kind));
   const auto errors = messages.TakeErrors();
   if (!errors.empty())
   {
@@ -82,6 +47,33 @@ void Voxelize(vtkSlicemapSolidVoxelizer* voxelizer, Messages& messages, Terminal
   }
 }
 
+/// The grid of the voxels, whatever their kind, as an image without arrays.
+vtkSmartPointer<vtkImageData> GetGrid(vtkVoxelizer* voxelizer)
+{
+  vtkInformation* information = voxelizer->GetOutputInformation(0);
+  auto grid = vtkSmartPointer<vtkImageData>::New();
+  grid->SetExtent(information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
+  grid->SetSpacing(information->Get(vtkDataObject::SPACING()));
+  grid->SetOrigin(information->Get(vtkDataObject::ORIGIN()));
+  grid->SetDirectionMatrix(information->Get(vtkDataObject::DIRECTION()));
+  return grid;
+}
+
+/// What the picture shows: octrees have a list made of them first.
+VoxelSet GetVoxels(vtkVoxelizer* voxelizer, Kind kind, Messages& messages, Terminal& terminal)
+{
+  if (kind == Kind::Image)
+  {
+    return VoxelSet(voxelizer->GetOutput());
+  }
+  if (kind == Kind::Octree)
+  {
+    Voxelize(voxelizer, Kind::List, messages, terminal);
+  }
+  vtkDataObject* list = voxelizer->GetOutputDataObject(static_cast<int>(Kind::List));
+  return { vtkPolyData::SafeDownCast(list), GetGrid(voxelizer) };
+}
+
 std::string StagePicture(const Options& options, StagedFiles& files)
 {
   if (!options.Picture)
@@ -96,12 +88,23 @@ std::string StagePicture(const Options& options, StagedFiles& files)
   return files.Add(*options.Picture);
 }
 
+/// The attribute whose colours the picture has; empty when there is none.
+std::string GetDrawnAttribute(const Options& options)
+{
+  if (options.Texture)
+  {
+    return "Texture";
+  }
+  return options.Attributes.empty() ? std::string() : options.Attributes.front();
+}
+
 void WritePicture(
-  vtkImageData* voxels, const Options& options, const std::string& staged, Terminal& terminal)
+  const VoxelSet& voxels, const Options& options, const std::string& staged, Terminal& terminal)
 {
   terminal.ShowProgress("drawing", 0.0);
   constexpr int y = 1;
-  const auto picture = Picture::Draw(voxels, options.UpAxis.value_or(y));
+  const auto picture =
+    Picture::Draw(voxels, GetDrawnAttribute(options), options.UpAxis.value_or(y));
   if (!picture)
   {
     throw Failure(
@@ -115,26 +118,29 @@ void Run(const Options& options, Terminal& terminal)
   Messages messages;
   StagedFiles files;
   const std::string picture = StagePicture(options, files);
-  const ImageOutput output(options.Output, files);
-  vtkNew<vtkSlicemapSolidVoxelizer> voxelizer;
-  SetGrid(voxelizer, options, messages);
-  SetVoxels(voxelizer, options);
+  const VoxelOutput output(options.Output, files);
+  const auto kind = VoxelOutput::GetKind(options.Output);
+  const auto voxelizer = VoxelizerFactory::Make(options, messages);
 
   Report report;
   report.Time("reading",
     [&] { voxelizer->SetInputDataObject(MeshReader::Read(options.Input, messages, terminal)); });
-  report.Time("voxelizing", [&] { Voxelize(voxelizer, messages, terminal); });
-  report.Time("writing", [&] { output.Write(voxelizer->GetOutput(), messages, terminal); });
+  report.Time("voxelizing", [&] { Voxelize(voxelizer, kind, messages, terminal); });
+  report.Time("writing",
+    [&]
+    { output.Write(voxelizer->GetOutputDataObject(static_cast<int>(kind)), messages, terminal); });
   if (options.Picture)
   {
-    report.Time(
-      "drawing", [&] { WritePicture(voxelizer->GetOutput(), options, picture, terminal); });
+    report.Time("drawing",
+      [&] {
+        WritePicture(GetVoxels(voxelizer, kind, messages, terminal), options, picture, terminal);
+      });
   }
   files.Commit();
   terminal.ClearBar();
   if (options.Info)
   {
-    report.Describe(voxelizer);
+    report.Describe(voxelizer, GetGrid(voxelizer));
     report.Print();
   }
 }

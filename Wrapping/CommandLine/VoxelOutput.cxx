@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ImageOutput.h"
+#include "VoxelOutput.h"
 
 #include "FileNames.h"
 #include "Messages.h"
@@ -15,9 +15,12 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkXMLHyperTreeGridWriter.h"
 #include "vtkXMLImageDataWriter.h"
+#include "vtkXMLPolyDataWriter.h"
 #include "vtkZLibDataCompressor.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -77,6 +80,52 @@ std::string MakeMetaImageHeader(
   return out.str();
 }
 
+template <typename Writer>
+vtkSmartPointer<vtkXMLWriter> MakeWriter()
+{
+  return vtkSmartPointer<Writer>::New();
+}
+
+/// In version 2 of the format, VTK 9.1 writes several arrays over each other, and does not read
+/// all components.
+vtkSmartPointer<vtkXMLWriter> MakeOctreeWriter()
+{
+  auto writer = vtkSmartPointer<vtkXMLHyperTreeGridWriter>::New();
+  writer->SetDataSetMajorVersion(1);
+  writer->SetDataSetMinorVersion(0);
+  return writer;
+}
+
+struct Format
+{
+  const char* Extension;
+  VoxelOutput::Kind Kind;
+  vtkSmartPointer<vtkXMLWriter> (*MakeWriter)(); // null for MetaImage
+};
+
+constexpr Format Formats[] = {
+  { ".vti", VoxelOutput::Kind::Image, MakeWriter<vtkXMLImageDataWriter> },
+  { ".mha", VoxelOutput::Kind::Image, nullptr },
+  { ".mhd", VoxelOutput::Kind::Image, nullptr },
+  { ".vtp", VoxelOutput::Kind::List, MakeWriter<vtkXMLPolyDataWriter> },
+  { ".htg", VoxelOutput::Kind::Octree, MakeOctreeWriter },
+};
+
+/// Null where the extension is not known.
+const Format* FindFormat(const std::string& file)
+{
+  const std::string extension = FileNames::GetExtension(file);
+  const auto* const found = std::find_if(std::begin(Formats), std::end(Formats),
+    [&](const Format& format) { return extension == format.Extension; });
+  return found == std::end(Formats) ? nullptr : found;
+}
+
+bool IsMetaImage(const std::string& file)
+{
+  const Format* const format = FindFormat(file);
+  return format && !format->MakeWriter;
+}
+
 /// Whether the file ends as an XML file of VTK does; its writer doesn't notice all failures.
 bool IsCompleteXML(const std::string& file)
 {
@@ -90,20 +139,20 @@ bool IsCompleteXML(const std::string& file)
 }
 }
 
-ImageOutput::ImageOutput(const std::string& target, StagedFiles& files)
+VoxelOutput::VoxelOutput(const std::string& target, StagedFiles& files)
   : Target(target)
   , Extension(FileNames::GetExtension(target))
 {
   if (this->Extension == ".nrrd" || this->Extension == ".nhdr")
   {
-    this->Refuse("VTK has no writer for NRRD; possible are " + ImageOutput::GetExtensions());
+    this->Refuse("VTK has no writer for NRRD; possible are " + VoxelOutput::GetExtensions());
   }
-  if (this->Extension != ".vti" && this->Extension != ".mha" && this->Extension != ".mhd")
+  if (!FindFormat(target))
   {
     this->Refuse(
       (this->Extension.empty() ? "its name has no extension"
-                               : "images of type " + this->Extension + " are not known") +
-      "; possible are " + ImageOutput::GetExtensions());
+                               : "voxels of type " + this->Extension + " are not known") +
+      "; possible are " + VoxelOutput::GetExtensions());
   }
   if (this->Extension == ".mhd")
   {
@@ -113,32 +162,32 @@ ImageOutput::ImageOutput(const std::string& target, StagedFiles& files)
   this->File = files.Add(target);
 }
 
-void ImageOutput::Refuse(const std::string& why) const
+void VoxelOutput::Refuse(const std::string& why) const
 {
   OutputFile::Refuse(this->Target, why);
 }
 
-void ImageOutput::Write(vtkImageData* image, Messages& messages, Terminal& terminal) const
+void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
 {
-  if (this->Extension == ".vti")
+  if (IsMetaImage(this->Target))
   {
-    this->WriteXML(image, messages, terminal);
+    terminal.ShowProgress("writing", 0.0);
+    this->WriteMetaImage(vtkImageData::SafeDownCast(voxels));
+    terminal.ShowProgress("writing", 1.0);
   }
   else
   {
-    terminal.ShowProgress("writing", 0.0);
-    this->WriteMetaImage(image);
-    terminal.ShowProgress("writing", 1.0);
+    this->WriteXML(voxels, messages, terminal);
   }
 }
 
-void ImageOutput::WriteXML(vtkImageData* image, Messages& messages, Terminal& terminal) const
+void VoxelOutput::WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
 {
   vtkNew<vtkZLibDataCompressor> compressor;
   compressor->SetCompressionLevel(CompressionLevel);
-  vtkNew<vtkXMLImageDataWriter> writer;
+  const auto writer = FindFormat(this->Target)->MakeWriter();
   writer->SetFileName(this->File.c_str());
-  writer->SetInputData(image);
+  writer->SetInputDataObject(voxels);
   writer->SetCompressor(compressor);
   writer->EncodeAppendedDataOff();
   terminal.Watch(writer, "writing");
@@ -157,7 +206,7 @@ void ImageOutput::WriteXML(vtkImageData* image, Messages& messages, Terminal& te
   }
 }
 
-void ImageOutput::WriteMetaImage(vtkImageData* image) const
+void VoxelOutput::WriteMetaImage(vtkImageData* image) const
 {
   auto* voxels = vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetScalars());
   vtkNew<vtkZLibDataCompressor> compressor;
@@ -187,18 +236,33 @@ void ImageOutput::WriteMetaImage(vtkImageData* image) const
   file.Close();
 }
 
-bool ImageOutput::HasBits(const std::string& target)
+VoxelOutput::Kind VoxelOutput::GetKind(const std::string& target)
 {
-  return ImageOutput::HasCells(target);
+  const Format* const format = FindFormat(target);
+  return format ? format->Kind : Kind::Image;
 }
 
-bool ImageOutput::HasCells(const std::string& target)
+bool VoxelOutput::HasBits(const std::string& target)
 {
-  const std::string extension = FileNames::GetExtension(target);
-  return extension != ".mha" && extension != ".mhd";
+  return VoxelOutput::HasCells(target);
 }
 
-std::string ImageOutput::GetExtensions()
+bool VoxelOutput::HasCells(const std::string& target)
 {
-  return ".vti, .mha, .mhd";
+  return VoxelOutput::GetKind(target) == Kind::Image && !IsMetaImage(target);
+}
+
+bool VoxelOutput::HasAttributes(const std::string& target)
+{
+  return !IsMetaImage(target);
+}
+
+std::string VoxelOutput::GetExtensions()
+{
+  std::string extensions;
+  for (const Format& format : Formats)
+  {
+    extensions += (extensions.empty() ? "" : ", ") + std::string(format.Extension);
+  }
+  return extensions;
 }

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file VoxelOutput.h
+ * Writes the voxels to a file.
+ */
+
+#ifndef VoxelOutput_h
+#define VoxelOutput_h
+
+#include <string>
+
+class Messages;
+class StagedFiles;
+class Terminal;
+class vtkDataObject;
+class vtkImageData;
+
+/**
+ * The file, or for .mhd two files, that the voxels go to: those of VTK's XML by its writers;
+ * MetaImage here, since VTK's writer leaves the direction matrix out, rounds the spacing and tells
+ * of no error.
+ */
+class VoxelOutput
+{
+public:
+  /// What a file may hold; the values are the output ports of vtkHybridSurfaceVoxelizer.
+  enum class Kind
+  {
+    Image = 0,
+    List = 1,
+    Octree = 2
+  };
+
+  /**
+   * Stages the files of the target. Throws Failure with ExitCode::Output when there is no format
+   * for its extension, or when it can't be written.
+   */
+  VoxelOutput(const std::string& target, StagedFiles& files);
+
+  /**
+   * Writes the voxels, of the kind of the target, to the staged files. Throws Failure with
+   * ExitCode::Output when that fails; a full disk is one reason.
+   */
+  void Write(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
+
+  /// What a file of this name holds; an image where the extension is not known.
+  static Kind GetKind(const std::string& target);
+
+  ///@{
+  /**
+   * Whether a file of this name may hold scalars of type VTK_BIT, cell data, and attributes.
+   */
+  static bool HasBits(const std::string& target);
+  static bool HasCells(const std::string& target);
+  static bool HasAttributes(const std::string& target);
+  ///@}
+
+  /// What can be written, for messages: ".vti, .mha ...".
+  static std::string GetExtensions();
+
+private:
+  void WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
+  void WriteMetaImage(vtkImageData* image) const;
+  [[noreturn]] void Refuse(const std::string& why) const;
+
+  std::string Target;
+  std::string Extension;
+  std::string File;     // staged: the voxels, or the header of a .mhd file
+  std::string DataFile; // staged, for .mhd only
+};
+
+#endif
