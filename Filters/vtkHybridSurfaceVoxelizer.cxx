@@ -332,6 +332,12 @@ vtkSurfaceAttributes vtkHybridSurfaceVoxelizer::LoadAttributes(const vtkVoxelMes
   vtkDataObject* input = this->GetInputDataObject(0, 0);
   for (const std::string& name : this->Attributes)
   {
+    const bool isTexture = this->TextureImage && name == vtkSurfaceAttributes::ImageName;
+    if (isTexture || name == "Occupancy" || name == "VoxelIndex")
+    {
+      throw std::runtime_error("The attribute \"" + name +
+        "\" has the name of an array that the output has itself. Rename the array of the input.");
+    }
     attributes.AddArray(input, mesh, name);
   }
   if (this->TextureImage)

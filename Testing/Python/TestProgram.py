@@ -914,6 +914,12 @@ class TestSurface(ProgramTest):
         self.refuse(VOXELIZATION, "--attributes", "Height,Hight", mesh, naming=['"Hight"'])
         self.refuse(VOXELIZATION, "--attributes", "RGB", self.mesh(), naming=['"RGB"', "no arrays"])
         data = polydata_with_arrays()
+        data.GetPointData().GetArray("Position").SetName("VoxelIndex")
+        data.GetPointData().GetArray("Height").SetName("Occupancy")
+        written(vtkXMLPolyDataWriter(), data, self.folder / "taken.vtp")
+        for name in "VoxelIndex", "Occupancy":
+            self.refuse(VOXELIZATION, "--attributes", name, "taken.vtp", naming=[name, "Rename"])
+        data = polydata_with_arrays()
         names = vtkStringArray()
         names.SetName("Name")
         for i in range(data.GetNumberOfPoints()):
