@@ -37,7 +37,7 @@ std::vector<glm::dvec3> MakeTable()
   std::vector<glm::dvec3> table(TableSize);
   for (int i = 0; i < TableSize; ++i)
   {
-    glm::dvec3 encoded;
+    glm::dvec3 encoded(0.0);
     function->GetColor(double(i) / (TableSize - 1), &encoded[0]);
     table[i] = ToLinear(encoded);
   }
@@ -70,7 +70,7 @@ glm::dvec3 VoxelColors::Get(vtkIdType tuple) const
   if (this->AreBytes)
   {
     const bool isGray = this->Attribute->GetNumberOfComponents() < 3;
-    glm::dvec3 encoded;
+    glm::dvec3 encoded(0.0);
     for (const int channel : { 0, 1, 2 })
     {
       encoded[channel] = this->Attribute->GetComponent(tuple, isGray ? 0 : channel) / Brightest;
