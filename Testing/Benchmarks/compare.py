@@ -1,20 +1,39 @@
-"""Prints as Markdown what BenchmarkSolid and rivals.py measured: milliseconds, and how many times faster.
+"""Prints as Markdown what the benchmarks and rivals.py measured: milliseconds, and how many times faster.
 
-    compare.py BENCHMARKS.json RIVALS.json
+    compare.py RESULTS.json ...
 """
 import json
 import sys
 
-SIZES = [64, 128, 256, 512, 1024]
+SOLIDS = (
+    ("Update", "image"), ("Bits", "bits on the GPU"), ("Pass", "bits, mesh already there"),
+    ("Scanline", "scanline on the CPU"), ("Stencil", "vtkPolyDataToImageStencil"), ("PyVista", "PyVista"))
+SOLID_RATIOS = (
+    ("PyVista", "Update", "image than PyVista"), ("PyVista", "Bits", "bits than PyVista"),
+    ("Stencil", "Update", "image than vtkPolyDataToImageStencil"),
+    ("Scanline", "Update", "image than the scanline"))
+SURFACES = (
+    ("SurfaceImage", "image"), ("SurfaceBits", "bits on the GPU"), ("VoxelModeller", "vtkVoxelModeller"),
+    ("OpenVDB", "OpenVDB, narrow band"))
+SURFACE_RATIOS = (
+    ("VoxelModeller", "SurfaceImage", "image than vtkVoxelModeller"),
+    ("VoxelModeller", "SurfaceBits", "bits than vtkVoxelModeller"),
+    ("OpenVDB", "SurfaceImage", "image than OpenVDB"), ("OpenVDB", "SurfaceBits", "bits than OpenVDB"))
+WAYS = (
+    ("Triangle", "Triangle"), ("Fragment", "Fragment"), ("Hybrid", "Hybrid"),
+    ("RasterTriangle", "Triangle, Raster"), ("RasterFragment", "Fragment, Raster"),
+    ("RasterHybrid", "Hybrid, Raster"))
 
 
-def load(benchmarks, rivals):
+def load(files):
     times = {}
-    for row in json.load(open(benchmarks))["benchmarks"]:
-        if row["run_type"] == "iteration":
-            name = row["run_name"].split("/iterations")[0]
-            times[name] = min(times.get(name, float("inf")), row["real_time"])
-    times.update({k: v for k, v in json.load(open(rivals)).items() if "/" in k})
+    for file in files:
+        results = json.load(open(file))
+        for row in results.get("benchmarks", []):
+            if row["run_type"] == "iteration":
+                name = row["run_name"].split("/iterations")[0]
+                times[name] = min(times.get(name, float("inf")), row["real_time"])
+        times.update({k: v for k, v in results.items() if "/" in k})
     return times
 
 
@@ -22,37 +41,48 @@ def number(value):
     return f"{value:.0f}" if value >= 99.5 else f"{value:.2g}"
 
 
+def table(title, rows):
+    """Rows are (label, {size: value}); those without values are left out."""
+    rows = [(label, values) for label, values in rows if values]
+    sizes = sorted({size for _, values in rows for size in values})
+    if not rows:
+        return
+    print(f"\n| {title} | " + " | ".join(f"{s}^3" for s in sizes) + " |")
+    print("| --- |" + " --- |" * len(sizes))
+    for label, values in rows:
+        cells = (number(values[s]) if s in values else "" for s in sizes)
+        print(f"| {label} | " + " | ".join(cells) + " |")
+
+
+def by_size(times, kind, mesh):
+    prefix = f"{kind}/{mesh}/"
+    return {int(name[len(prefix):]): t for name, t in times.items() if name.startswith(prefix)}
+
+
+def ratios(times, slow, fast, mesh):
+    ours = by_size(times, fast, mesh)
+    return {s: t / ours[s] for s, t in by_size(times, slow, mesh).items() if s in ours}
+
+
+def tables(times, key, title, kinds, comparisons):
+    meshes = sorted({name.split("/")[1] for name in times if name.startswith(f"{key}/")})
+    table(f"times faster, {title}", [(f"{mesh}, {label}", ratios(times, slow, fast, mesh))
+                                     for mesh in meshes for slow, fast, label in comparisons])
+    table(f"milliseconds, {title}", [(f"{mesh}, {label}", by_size(times, kind, mesh))
+                                     for mesh in meshes for kind, label in kinds])
+
+
 def main():
-    times = load(*sys.argv[1:])
-    meshes = sorted({key.split("/")[1] for key in times if key.startswith("Update/")})
-    sizes = [s for s in SIZES if any(f"Update/{m}/{s}" in times for m in meshes)]
-    print("| milliseconds | " + " | ".join(f"{s}^3" for s in sizes) + " |")
-    print("| --- |" + " --- |" * len(sizes))
-    for mesh in meshes:
-        for kind, label in (("Update", "image"), ("Bits", "bits on the GPU"),
-                            ("Pass", "bits, mesh already there"), ("Scanline", "scanline on the CPU"),
-                            ("Stencil", "vtkPolyDataToImageStencil"), ("PyVista", "PyVista")):
-            row = [times.get(f"{kind}/{mesh}/{s}") for s in sizes]
-            if any(row):
-                print(f"| {mesh}, {label} | " +
-                      " | ".join(number(t) if t else "" for t in row) + " |")
-    print()
-    print("| times faster | " + " | ".join(f"{s}^3" for s in sizes) + " |")
-    print("| --- |" + " --- |" * len(sizes))
-    for mesh in meshes:
-        for rival, ours, label in (("PyVista", "Update", "image than PyVista"),
-                                   ("PyVista", "Bits", "bits than PyVista"),
-                                   ("Stencil", "Update", "image than vtkPolyDataToImageStencil"),
-                                   ("Scanline", "Update", "image than the scanline")):
-            row = [(times.get(f"{rival}/{mesh}/{s}"), times.get(f"{ours}/{mesh}/{s}")) for s in sizes]
-            if any(a and b for a, b in row):
-                print(f"| {mesh}, {label} | " +
-                      " | ".join(number(a / b) if a and b else "" for a, b in row) + " |")
-    for size in sizes:
-        scan, clear, copy = (times.get(f"{k}/{size}") for k in ("Scan", "Clear", "Copy"))
+    times = load(sys.argv[1:])
+    tables(times, "Update", "solid", SOLIDS, SOLID_RATIOS)
+    for size in (256, 512, 1024):
+        scan, clear, copy = (times.get(f"{kind}/{size}") for kind in ("Scan", "Clear", "Copy"))
         rest = times.get("Scan/8")
         if scan and clear and copy and rest:
-            print(f"\nParity scan of {size}^3 bits: {number((scan - clear - rest) / copy)} times a copy of them.")
+            factor = number((scan - clear - rest) / copy)
+            print(f"\nParity scan of {size}^3 bits: {factor} times a copy of them.")
+    tables(times, "SurfaceBits", "surface", SURFACES, SURFACE_RATIOS)
+    tables(times, "Hybrid", "thin surface by strategy", WAYS, ())
 
 
 main()
