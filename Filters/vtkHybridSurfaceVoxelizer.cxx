@@ -72,6 +72,11 @@ struct vtkHybridSurfaceVoxelizer::Settings : vtkSurfacePass::Settings
 {
 };
 
+struct vtkHybridSurfaceVoxelizer::Internals
+{
+  vtkSurfacePass::Classification Triangles;
+};
+
 /// A few slices of the grid, and what is known of their set voxels.
 struct vtkHybridSurfaceVoxelizer::Slab
 {
@@ -187,6 +192,7 @@ vtkStandardNewMacro(vtkHybridSurfaceVoxelizer);
 vtkCxxSetObjectMacro(vtkHybridSurfaceVoxelizer, TextureImage, vtkImageData);
 
 vtkHybridSurfaceVoxelizer::vtkHybridSurfaceVoxelizer()
+  : Kept(std::make_unique<Internals>())
 {
   this->SetNumberOfOutputPorts(3);
 }
@@ -359,6 +365,7 @@ vtkHybridSurfaceVoxelizer::Settings vtkHybridSurfaceVoxelizer::GetSettings(
   }
   Settings settings;
   settings.Separability = this->Separability;
+  settings.Classified = this->PreClassification ? &this->Kept->Triangles : nullptr;
   settings.Large = this->GetUsedBackend() == BACKEND_RASTER
     ? vtkSurfacePass::LargeTriangles::Fragments
     : vtkSurfacePass::LargeTriangles::Tiles;
@@ -515,6 +522,7 @@ void vtkHybridSurfaceVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Separability: " << this->Separability << "\n";
   os << indent << "Strategy: " << strategies[this->Strategy] << "\n";
   os << indent << "CutoffArea: " << this->CutoffArea << "\n";
+  os << indent << "PreClassification: " << this->PreClassification << "\n";
   os << indent << "UsedCutoffArea: " << this->UsedCutoffArea << "\n";
   os << indent << "Attributes:";
   for (const std::string& name : this->Attributes)

@@ -120,6 +120,18 @@ public:
   vtkGetMacro(CutoffArea, double);
   ///@}
 
+  ///@{
+  /**
+   * For geometry that stays: whether the lists of small and of large triangles are kept on the GPU,
+   * 16 bytes a triangle, so that further runs on the same mesh and grid, for instance with other
+   * attributes, do without the search. Only for grids that a storage buffer holds in one piece.
+   * Default: off.
+   */
+  vtkSetMacro(PreClassification, bool);
+  vtkGetMacro(PreClassification, bool);
+  vtkBooleanMacro(PreClassification, bool);
+  ///@}
+
   /**
    * The CutoffArea of the last run with Hybrid or Auto; -1 before.
    */
@@ -205,6 +217,10 @@ private:
   std::vector<std::string> Attributes;
   vtkImageData* TextureImage = nullptr;
   int AttributeCombination = COMBINE_AVERAGE;
+  bool PreClassification = false;
+
+  struct Internals;
+  std::unique_ptr<Internals> Kept;
 };
 
 #endif

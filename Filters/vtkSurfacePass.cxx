@@ -126,6 +126,11 @@ struct vtkSurfacePass::Slab
   int First;
   int End;
 
+  bool IsWhole() const
+  {
+    return this->First == 0 && this->End == this->Slicemap->GetGrid().GetDimensions().z;
+  }
+
   void SetUniforms(Program& program) const
   {
     const vtkVoxelGrid& grid = this->Slicemap->GetGrid();
@@ -153,6 +158,24 @@ vtkSurfacePass& vtkSurfacePass::Get(const vtkVoxelGL::Context& context)
     cached = std::make_shared<vtkSurfacePass>(context);
   }
   return *static_cast<vtkSurfacePass*>(cached.get());
+}
+
+bool vtkSurfacePass::Classification::Prepare(
+  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Settings& settings)
+{
+  const bool isSame = this->Triangles.IsKnown && this->Triangles.Queue && this->Mesh == &mesh &&
+    this->Upload == mesh.GetNumberOfUploads() && this->Grid == grid &&
+    this->CutoffArea == settings.CutoffArea && this->Large == settings.Large;
+  if (!isSame)
+  {
+    this->Triangles.IsKnown = false;
+    this->Mesh = &mesh;
+    this->Upload = mesh.GetNumberOfUploads();
+    this->Grid = grid;
+    this->CutoffArea = settings.CutoffArea;
+    this->Large = settings.Large;
+  }
+  return isSame;
 }
 
 bool vtkSurfacePass::Run(
@@ -203,13 +226,21 @@ void vtkSurfacePass::VisitSlab(
   job.Defines = GetDefines(settings, visitor);
   job.HasTriangleStage = true;
   job.HasTileStage = !draws;
+  Classification* classified = slab.IsWhole() ? settings.Classified : nullptr;
+  const bool isClassified =
+    classified && classified->Prepare(mesh, slab.Slicemap->GetGrid(), settings);
+  job.Classified = classified ? &classified->Triangles : nullptr;
+  vtkVoxelGL::Buffer& deferred = classified ? classified->Deferred : this->Deferred;
   if (draws)
   {
     job.Defines["DEFER_TO_FRAGMENTS"] = "1";
-    vtkVoxelGL::Prepare(this->Deferred, this->Context,
-      sizeof(NothingDeferred) + mesh.GetNumberOfTriangles() * WordBytes);
-    this->Deferred.Upload(0, sizeof(NothingDeferred), NothingDeferred.data());
-    this->Deferred.BindBase(GL_SHADER_STORAGE_BUFFER, DeferredBinding);
+    if (!isClassified)
+    {
+      vtkVoxelGL::Prepare(
+        deferred, this->Context, sizeof(NothingDeferred) + mesh.GetNumberOfTriangles() * WordBytes);
+      deferred.Upload(0, sizeof(NothingDeferred), NothingDeferred.data());
+    }
+    deferred.BindBase(GL_SHADER_STORAGE_BUFFER, DeferredBinding);
   }
   job.SetUniforms = [&](Program& program)
   {
@@ -220,12 +251,12 @@ void vtkSurfacePass::VisitSlab(
   this->Dispatch.Run(mesh, slab.Slicemap->GetGrid(), job);
   if (draws)
   {
-    this->DrawDeferred(mesh, settings, visitor, slab);
+    this->DrawDeferred(mesh, settings, visitor, slab, deferred);
   }
 }
 
-void vtkSurfacePass::DrawDeferred(
-  const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab)
+void vtkSurfacePass::DrawDeferred(const vtkVoxelMesh& mesh, const Settings& settings,
+  const Visitor& visitor, const Slab& slab, const vtkVoxelGL::Buffer& deferred)
 {
   const vtkVoxelGrid& grid = slab.Slicemap->GetGrid();
   const vtkColumnAxes axes(2);
@@ -256,7 +287,7 @@ void vtkSurfacePass::DrawDeferred(
   program.Set("WindowSize", std::array<int, 2>{ window, window });
   vtkVoxelGL::VertexArray vertices(this->Context);
   vertices.Bind();
-  this->Deferred.Bind(GL_DRAW_INDIRECT_BUFFER);
+  deferred.Bind(GL_DRAW_INDIRECT_BUFFER);
   for (int v = 0; v < longest; v += window)
   {
     for (int u = 0; u < longest; u += window)

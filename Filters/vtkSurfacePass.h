@@ -16,6 +16,8 @@
 
 #include "vtkTriangleDispatch.h"
 
+#include "vtkVoxelGrid.h"
+
 #include <cstdint>
 
 class vtkSlicemap;
@@ -39,11 +41,32 @@ public:
     Clear
   };
 
+  struct Settings;
+
   /// CutoffArea: triangles whose bounds have more columns of voxels are large. One invocation does
   /// no more than LargestCutoffArea, since renderers in software end its loops after 65,535 turns
   /// (MAX_COLUMNS in vtkVoxelTileQueue.glsl).
   static constexpr float LargestCutoffArea = 8192.0f;
   static constexpr float AllAreLarge = -1.0f;
+
+  /// Which triangles are small, kept on the GPU for further runs on the same mesh and grid.
+  class Classification
+  {
+  private:
+    friend class vtkSurfacePass;
+
+    /// Whether it was made for the same triangles, voxels and settings; made ready to be filled
+    /// when not.
+    bool Prepare(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Settings& settings);
+
+    vtkTriangleDispatch::Classification Triangles;
+    vtkVoxelGL::Buffer Deferred;
+    const vtkVoxelMesh* Mesh = nullptr;
+    int Upload = 0;
+    vtkVoxelGrid Grid;
+    float CutoffArea = 0.0f;
+    LargeTriangles Large = LargeTriangles::Tiles;
+  };
 
   struct Settings
   {
@@ -51,6 +74,7 @@ public:
     float CutoffArea = DefaultCutoffArea;
     LargeTriangles Large = LargeTriangles::Tiles;
     Operation Effect = Operation::Set;
+    Classification* Classified = nullptr; ///< to use and to fill, for geometry that stays
   };
   static constexpr float DefaultCutoffArea = 1024.0f;
 
@@ -92,8 +116,8 @@ private:
 
   void VisitSlab(
     const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab);
-  void DrawDeferred(
-    const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab);
+  void DrawDeferred(const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor,
+    const Slab& slab, const vtkVoxelGL::Buffer& deferred);
 
   vtkVoxelGL::Context Context;
   vtkTriangleDispatch Dispatch;

@@ -10,6 +10,8 @@
 //   TILES and UNCUT  defined: a workgroup does a tile of a large triangle, an invocation a row of the tile
 //   fragments        with DEFER_TO_FRAGMENTS defined in the first stage, storage buffer 3 begins with the
 //                    arguments of an indirect draw, six vertices a large triangle, then come their ids
+// With CLASSIFY defined in the first stage small triangles wait too, for the stage
+//   SMALL            defined: an invocation does a small triangle
 // The stages are there because renderers in software run all of a shader, whatever its conditions and returns.
 //
 // CutoffArea triangles whose bounds have more columns than this are large; negative: all are
@@ -97,6 +99,22 @@ bool deferLarge(uint triangle, Facet f)
 #endif
 }
 
+#ifdef SMALL
+
+void main()
+{
+  uint triangle;
+  Facet f;
+  if (smallTriangle(triangle) && facetOf(triangle, f))
+  {
+    NearOverlap overlap;
+    setUpOverlap(overlap, f, float(NEAR_MARGIN + Margin));
+    visitTriangle(f, overlap);
+  }
+}
+
+#else
+
 void main()
 {
   uint triangle;
@@ -114,9 +132,15 @@ void main()
     enqueueTriangle(triangle);
     return;
   }
+#ifdef CLASSIFY
+  enqueueSmall(triangle);
+#else
   NearOverlap overlap;
   setUpOverlap(overlap, f, float(NEAR_MARGIN + Margin));
   visitTriangle(f, overlap);
+#endif
 }
+
+#endif
 
 #endif

@@ -23,12 +23,13 @@ namespace
 // As in vtkVoxelTileQueue.glsl.
 constexpr std::size_t QueueCapacity = 262144;
 constexpr std::size_t QueueItemBytes = 8;
-constexpr std::size_t QueueHeaderWords = 12;
+constexpr std::size_t QueueHeaderWords = 18;
 constexpr std::size_t WordBytes = 4;
 constexpr int TileSize = 64;
 constexpr GLintptr TileGroupsOffset = 0;
 constexpr GLintptr UncutGroupsOffset = 12;
 constexpr GLintptr TriangleGroupsOffset = 24;
+constexpr GLintptr SmallGroupsOffset = 36;
 constexpr GLuint QueueBinding = 2;
 
 constexpr unsigned int MeshUnit = 1;
@@ -95,6 +96,22 @@ double GetMargin(double largestTerms)
 }
 }
 
+namespace
+{
+/// An empty queue with room for all triangles of the mesh, small ones too when they are to wait.
+void StartQueue(vtkVoxelGL::Buffer& queue, const vtkVoxelGL::Context& context,
+  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, bool smallOnesWait)
+{
+  const std::uint32_t triangles = mesh.GetNumberOfTriangles();
+  const std::size_t items = QueueCapacity + std::size_t(triangles) * (smallOnesWait ? 2 : 1);
+  vtkVoxelGL::Prepare(queue, context, QueueHeaderWords * WordBytes + items * QueueItemBytes);
+  const std::uint32_t tiles = TilesOfGrid(grid);
+  const std::array<std::uint32_t, QueueHeaderWords> header{ 0, 1, 1, tiles, tiles, 0, 0, 1, 1, 0, 1,
+    1, 0, 0, 0, 0, triangles, 0 };
+  queue.Upload(0, sizeof(header), header.data());
+}
+}
+
 vtkTriangleDispatch::vtkTriangleDispatch(vtkVoxelGL::Context context)
   : Context(std::move(context))
 {
@@ -127,14 +144,13 @@ void vtkTriangleDispatch::BindMesh(
 
 void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Job& job)
 {
-  const std::size_t items = QueueCapacity + mesh.GetNumberOfTriangles();
-  vtkVoxelGL::Prepare(
-    this->Queue, this->Context, QueueHeaderWords * WordBytes + items * QueueItemBytes);
-  const std::uint32_t tiles = TilesOfGrid(grid);
-  const std::array<std::uint32_t, QueueHeaderWords> empty{ 0, 1, 1, tiles, tiles, 0, 0, 1, 1, 0, 0,
-    0 };
-  this->Queue.Upload(0, sizeof(empty), empty.data());
-  this->Queue.BindBase(GL_SHADER_STORAGE_BUFFER, QueueBinding);
+  vtkVoxelGL::Buffer& queue = job.Classified ? job.Classified->Queue : this->Queue;
+  const bool isClassified = job.Classified && job.Classified->IsKnown;
+  if (!isClassified)
+  {
+    StartQueue(queue, this->Context, mesh, grid, job.Classified != nullptr);
+  }
+  queue.BindBase(GL_SHADER_STORAGE_BUFFER, QueueBinding);
 
   std::vector<std::string> sources{ vtkSlicemapLayoutGLSL, vtkVoxelMeshFetchGLSL,
     vtkVoxelTriangleRangeGLSL, vtkVoxelTileQueueGLSL };
@@ -150,17 +166,30 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
     job.SetUniforms(program);
   };
 
-  use();
-  vtkVoxelDispatch(mesh.GetNumberOfTriangles());
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  if (!isClassified)
+  {
+    if (job.Classified)
+    {
+      defines["CLASSIFY"] = "1";
+    }
+    use();
+    defines.erase("CLASSIFY");
+    vtkVoxelDispatch(mesh.GetNumberOfTriangles());
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  }
   const auto runStage = [&](const char* name, GLintptr groups)
   {
     defines[name] = "1";
     use();
     defines.erase(name);
-    this->Queue.Bind(GL_DISPATCH_INDIRECT_BUFFER);
+    queue.Bind(GL_DISPATCH_INDIRECT_BUFFER);
     glDispatchComputeIndirect(groups);
   };
+  if (job.Classified)
+  {
+    job.Classified->IsKnown = true;
+    runStage("SMALL", SmallGroupsOffset);
+  }
   if (job.HasTriangleStage)
   {
     runStage("TRIANGLES", TriangleGroupsOffset);

@@ -31,6 +31,15 @@ class vtkTriangleDispatch
 public:
   explicit vtkTriangleDispatch(vtkVoxelGL::Context context);
 
+  /// The triangles of a first stage that ran with CLASSIFY defined: small ones for a stage with
+  /// SMALL defined, and those that wait for other stages. As long as it is known the first stage is
+  /// left out.
+  struct Classification
+  {
+    vtkVoxelGL::Buffer Queue;
+    bool IsKnown = false;
+  };
+
   struct Job
   {
     std::string Name;                 ///< of the program
@@ -38,6 +47,7 @@ public:
     vtkVoxelGL::Program::Defines Defines;
     vtkColumnAxes Axes{ 2 }; ///< order in which the shader wants index coordinates
     std::function<void(vtkVoxelGL::Program&)> SetUniforms;
+    Classification* Classified = nullptr; ///< to be filled, or to be used if known
     bool HasTriangleStage = false;
     bool HasTileStage = true;
   };

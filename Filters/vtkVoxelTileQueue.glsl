@@ -2,16 +2,20 @@
 // they are. An invocation never does more than a row of some tiles, or one small triangle: renderers in software
 // end the loops of an invocation after 65,535 turns in all.
 //
-// TileQueue (storage buffer 2) begins with the arguments of three indirect dispatches:
+// TileQueue (storage buffer 2) begins with the arguments of four indirect dispatches:
 //   TILES      a workgroup for each tile that is in the queue, or several when there are many
 //   UNCUT      a workgroup for each tile (x, y) of the grid and each triangle z that was left uncut
 //   TRIANGLES  an invocation for each waiting triangle
+//   SMALL      an invocation for each small triangle, where these were classified beforehand
 // Items hold
 //   from 0               (triangle, tile), where tile is y << 16 | x in the rectangle of TILE_SIZE x TILE_SIZE
 //                        columns that the triangle may cover
 //   from QUEUE_CAPACITY  (triangle, unused), triangles for whose tiles no room was left
-//   back from the end    (triangle, unused), triangles to be done by one invocation
-// with as many items behind QUEUE_CAPACITY as there are triangles, each of which waits once at most.
+//   back from QUEUE_CAPACITY + MeshTriangles
+//                        (triangle, unused), triangles to be done by one invocation in a later stage
+//   from QUEUE_CAPACITY + MeshTriangles
+//                        (triangle, unused), small triangles, where these are classified beforehand
+// where MeshTriangles is the number of all triangles, each of which waits once at most.
 //
 // The shader that works on tiles defines doTile(), an invocation a row; main() of TILES and UNCUT is here.
 
@@ -27,28 +31,54 @@ layout(std430, binding = 2) buffer TileQueue
   uint TileGroups[3];
   uint UncutGroups[3];
   uint TriangleGroups[3];
+  uint SmallGroups[3];
   uint NumberOfTiles;
   uint NumberOfUncut;
   uint NumberOfWaiting;
+  uint NumberOfSmall;
+  uint MeshTriangles;
+  uint Unused;
   uvec2 Items[];
 };
 
 void enqueueTriangle(uint triangle)
 {
   uint index = atomicAdd(NumberOfWaiting, 1u);
-  Items[uint(Items.length()) - 1u - index] = uvec2(triangle, 0u);
+  Items[QUEUE_CAPACITY + MeshTriangles - 1u - index] = uvec2(triangle, 0u);
   uint group = index / gl_WorkGroupSize.x;
   atomicMax(TriangleGroups[0], min(group + 1u, MAX_GROUPS));
   atomicMax(TriangleGroups[1], group / MAX_GROUPS + 1u);
 }
 
-// False for invocations that have none.
-bool waitingTriangle(out uint triangle)
+void enqueueSmall(uint triangle)
+{
+  uint index = atomicAdd(NumberOfSmall, 1u);
+  Items[QUEUE_CAPACITY + MeshTriangles + index] = uvec2(triangle, 0u);
+  uint group = index / gl_WorkGroupSize.x;
+  atomicMax(SmallGroups[0], min(group + 1u, MAX_GROUPS));
+  atomicMax(SmallGroups[1], group / MAX_GROUPS + 1u);
+}
+
+uint indexInStage()
 {
   uint group = gl_WorkGroupID.y * MAX_GROUPS + gl_WorkGroupID.x;
-  uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+  return group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+
+// These two are false for invocations that have none.
+bool waitingTriangle(out uint triangle)
+{
+  uint index = indexInStage();
   bool exists = index < NumberOfWaiting;
-  triangle = exists ? Items[uint(Items.length()) - 1u - index].x : 0u;
+  triangle = exists ? Items[QUEUE_CAPACITY + MeshTriangles - 1u - index].x : 0u;
+  return exists;
+}
+
+bool smallTriangle(out uint triangle)
+{
+  uint index = indexInStage();
+  bool exists = index < NumberOfSmall;
+  triangle = exists ? Items[QUEUE_CAPACITY + MeshTriangles + index].x : 0u;
   return exists;
 }
 

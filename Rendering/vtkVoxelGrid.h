@@ -62,6 +62,13 @@ struct VTKVOXELIZATION_EXPORT vtkVoxelGrid
   /// World volume of one voxel.
   double GetVoxelVolume() const;
 
+  /// True when all numbers are equal.
+  bool operator==(const vtkVoxelGrid& other) const
+  {
+    return this->Extent == other.Extent && this->Spacing == other.Spacing &&
+      this->Origin == other.Origin && this->Direction == other.Direction;
+  }
+
   /// True when both name the same voxels at the same places (up to rounding of the last digits).
   bool IsSameAs(const vtkVoxelGrid& other) const;
 

@@ -27,6 +27,25 @@ std::string NameOf(const std::string& mesh, int separability)
   return mesh + ", " + std::to_string(separability) + "-separating";
 }
 
+/// Once to classify, once to use what was classified.
+bool CheckPreClassified(
+  const std::string& name, vtkHybridSurfaceVoxelizer* voxelizer, const Volume& expected)
+{
+  bool good = true;
+  voxelizer->PreClassificationOn();
+  for (const char* const run : { ", classifying", ", classified" })
+  {
+    voxelizer->Modified();
+    voxelizer->Update();
+    good &= Report(NameOf(name, voxelizer->GetSeparability()) + ", " +
+        VoxelSolidTests::NameOf(voxelizer->GetUsedBackend()) + ", strategy " +
+        std::to_string(voxelizer->GetStrategy()) + run,
+      Compare(OccupancyOf(voxelizer->GetOutput()), expected));
+  }
+  voxelizer->PreClassificationOff();
+  return good;
+}
+
 Volume Voxelize(vtkPolyData* mesh, vtkImageData* grid, int separability)
 {
   const auto voxelizer = MakeSurfaceVoxelizer(mesh, grid, separability);
@@ -66,6 +85,7 @@ bool CheckStrategies(const std::string& name, vtkPolyData* mesh, vtkImageData* g
         voxelizer->SetCutoffArea(cutoff);
         voxelizer->Update();
         Volume found = OccupancyOf(voxelizer->GetOutput());
+        good &= CheckPreClassified(name, voxelizer, found);
         if (!first)
         {
           first = std::make_unique<Volume>(std::move(found));
