@@ -46,6 +46,14 @@ constexpr std::int64_t SlabBytes = std::int64_t(1) << 26;
 
 constexpr std::int64_t IndexBytes = 4;
 
+/// Of the progress of an image with attributes.
+constexpr double ShareOfOccupancy = 0.25;
+
+/// Place, index and vertex of a voxel in a list; code and order of one while a tree is built, and
+/// some three nodes.
+constexpr std::int64_t ListBytes = 12 + 12 + 8;
+constexpr std::int64_t TreeBytes = 8 + 4 + 3 * 4;
+
 /// Floats tell the centres of voxels apart up to this many voxels from the world's origin.
 constexpr double LargestFloatIndex = 1048576.0;
 
@@ -108,8 +116,8 @@ public:
   {
   }
 
-  /// False when told to stop.
-  bool ForEachSlab(const vtkVoxelGrid& grid, const Consume& consume)
+  /// False when told to stop. Progress goes from `from` to 1. Throws std::runtime_error.
+  bool ForEachSlab(const vtkVoxelGrid& grid, const Consume& consume, double from = 0.0)
   {
     const int slices = grid.GetDimensions().z;
     const std::int64_t sliceBytes = vtkSlicemap::GetNumberOfWords(grid) / slices *
@@ -119,13 +127,21 @@ public:
     for (int first = 0; first < slices; first += atOnce)
     {
       const int end = std::min(first + atOnce, slices);
-      if (!this->Filter->ReportProgress(double(first) / slices) ||
+      if (!this->Filter->ReportProgress(from + (1.0 - from) * first / slices) ||
         !this->DoSlices(grid, first, end, consume))
       {
         return false;
       }
     }
     return this->Filter->ReportProgress(1.0);
+  }
+
+  /// All voxels so far must find room, at so many bytes each beside their attributes.
+  void CheckBytes(std::int64_t voxels, std::int64_t bytesPerVoxel, const std::string& what) const
+  {
+    this->Filter->CheckBytes(voxels * (bytesPerVoxel + this->Attributes.GetBytesPerVoxel()),
+      what + " of " + std::to_string(voxels) + " voxels and more",
+      "Use fewer voxels or attributes.");
   }
 
 private:
@@ -396,8 +412,9 @@ bool vtkHybridSurfaceVoxelizer::Voxelize(
     return false;
   }
   slicemap->GetBuffer().Fill(0);
+  const double share = this->GetBytesOfArrays() > 0 ? ShareOfOccupancy : 1.0;
   return vtkSurfacePass::Get(this->GetContext()->GetRecord())
-    .Run(mesh, slicemap, settings, [&](double done) { return this->ReportProgress(done); });
+    .Run(mesh, slicemap, settings, [&](double done) { return this->ReportProgress(share * done); });
 }
 
 std::int64_t vtkHybridSurfaceVoxelizer::GetBytesOfArrays()
@@ -425,7 +442,8 @@ bool vtkHybridSurfaceVoxelizer::AddArrays(
   }
   const std::int64_t sliceVoxels = grid.GetNumberOfVoxels() / grid.GetDimensions().z;
   Run run(this, mesh, attributes, this->GetSettings(mesh, grid));
-  return run.ForEachSlab(grid,
+  return run.ForEachSlab(
+    grid,
     [&](const Slab& slab)
     {
       const vtkIdType first = sliceVoxels * (slab.Grid.GetFirst().z - grid.GetFirst().z);
@@ -436,7 +454,8 @@ bool vtkHybridSurfaceVoxelizer::AddArrays(
           arrays[i]->SetTuple(first + slab.Indices[voxel], voxel, slab.Values[i]);
         }
       }
-    });
+    },
+    ShareOfOccupancy);
 }
 
 bool vtkHybridSurfaceVoxelizer::FillVoxelList(
@@ -460,6 +479,7 @@ bool vtkHybridSurfaceVoxelizer::FillVoxelList(
   const bool finished = run.ForEachSlab(grid,
     [&](const Slab& slab)
     {
+      run.CheckBytes(points->GetNumberOfPoints() + slab.Count, ListBytes, "list");
       for (vtkIdType i = 0; i < slab.Count; ++i)
       {
         const glm::ivec3 voxel = slab.Grid.GetFirst() + slab.GetVoxel(i);
@@ -499,6 +519,8 @@ bool vtkHybridSurfaceVoxelizer::FillHyperTreeGrid(
   const bool finished = run.ForEachSlab(grid,
     [&](const Slab& slab)
     {
+      run.CheckBytes(
+        static_cast<std::int64_t>(tree.GetNumberOfVoxels()) + slab.Count, TreeBytes, "octree");
       const glm::ivec3 offset = slab.Grid.GetFirst() - grid.GetFirst();
       for (vtkIdType i = 0; i < slab.Count; ++i)
       {

@@ -378,13 +378,21 @@ int vtkVoxelizer::RequestUpdateExtent(
 
 void vtkVoxelizer::CheckMemory(const vtkVoxelGrid& grid)
 {
-  if (!this->HostOutput)
+  if (this->HostOutput)
   {
-    return;
+    const auto n = grid.GetDimensions();
+    const std::int64_t voxels = grid.GetNumberOfVoxels();
+    this->CheckBytes((this->OutputScalarType == VTK_BIT ? (voxels + 7) / 8 : voxels) +
+        voxels * this->GetBytesOfArrays(),
+      "output of " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +
+        std::to_string(n.z) + " voxels",
+      "Use fewer voxels, or the scalar type VTK_BIT.");
   }
-  const std::int64_t voxels = grid.GetNumberOfVoxels();
-  const std::int64_t bytes = (this->OutputScalarType == VTK_BIT ? (voxels + 7) / 8 : voxels) +
-    voxels * this->GetBytesOfArrays();
+}
+
+void vtkVoxelizer::CheckBytes(
+  std::int64_t bytes, const std::string& what, const std::string& remedy) const
+{
   if (this->MemoryLimit == 0 && bytes < CarelessBytes)
   {
     return;
@@ -392,13 +400,10 @@ void vtkVoxelizer::CheckMemory(const vtkVoxelGrid& grid)
   const std::int64_t limit = this->MemoryLimit > 0 ? this->MemoryLimit : GetFreeBytes();
   if (bytes > limit)
   {
-    const auto n = grid.GetDimensions();
-    throw InvalidGrid("The output of " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +
-      std::to_string(n.z) + " voxels takes " +
+    throw InvalidGrid("The " + what + " takes " +
       std::to_string(std::llround(bytes / BytesPerMebibyte)) + " MiB, but " +
       std::to_string(std::llround(limit / BytesPerMebibyte)) +
-      (this->MemoryLimit > 0 ? " MiB are allowed by MemoryLimit" : " MiB are free") +
-      ". Use fewer voxels, or the scalar type VTK_BIT.");
+      (this->MemoryLimit > 0 ? " MiB are allowed by MemoryLimit. " : " MiB are free. ") + remedy);
   }
 }
 

@@ -42,6 +42,7 @@
 #include <cstdint>    // for 64-bit sizes
 #include <functional> // for RunOnMesh
 #include <memory>     // for the implementation
+#include <string>     // for CheckBytes
 
 class vtkDataSetAttributes;
 class vtkImageData;
@@ -289,6 +290,12 @@ protected:
    */
   int RunOnMesh(vtkDataObject* input, const std::function<bool(const vtkVoxelGrid& whole)>& prepare,
     const std::function<bool(vtkVoxelMesh& mesh)>& work);
+
+  /**
+   * Throws std::runtime_error, which RunOnMesh reports, when `what` takes more bytes than
+   * MemoryLimit allows, or than are free. `remedy` tells the user what to do.
+   */
+  void CheckBytes(std::int64_t bytes, const std::string& what, const std::string& remedy) const;
 
   /**
    * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into

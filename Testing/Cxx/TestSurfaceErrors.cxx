@@ -184,6 +184,12 @@ int TestSurfaceErrors(int, char*[])
       v->SetMemoryLimit(8 * 8 * 8 * 3);
     },
     "allowed by MemoryLimit");
+  for (const int port : { 1, 2 })
+  {
+    TestError(
+      checks, "too many voxels at port " + std::to_string(port), port,
+      [](Voxelizer* v, vtkPolyData*) { v->SetMemoryLimit(1000); }, "allowed by MemoryLimit");
+  }
   TestSettings(checks);
   return checks.Passed() ? EXIT_SUCCESS : EXIT_FAILURE;
 }
