@@ -101,6 +101,28 @@ struct vtkHybridSurfaceVoxelizer::Slab
   }
 };
 
+/// The attributes of all set voxels, slab after slab.
+struct vtkHybridSurfaceVoxelizer::SparseArrays
+{
+  explicit SparseArrays(const vtkSurfaceAttributes& attributes)
+  {
+    for (int i = 0; i < attributes.GetNumber(); ++i)
+    {
+      this->All.push_back(attributes.NewArray(i, 0));
+    }
+  }
+
+  void Append(const Slab& slab)
+  {
+    for (std::size_t i = 0; i < this->All.size(); ++i)
+    {
+      this->All[i]->InsertTuples(this->All[i]->GetNumberOfTuples(), slab.Count, 0, slab.Values[i]);
+    }
+  }
+
+  Arrays All;
+};
+
 /// Works through the slabs of a grid.
 class vtkHybridSurfaceVoxelizer::Run
 {
@@ -470,11 +492,7 @@ bool vtkHybridSurfaceVoxelizer::FillVoxelList(
   vtkNew<vtkIntArray> indices;
   indices->SetName("VoxelIndex");
   indices->SetNumberOfComponents(3);
-  Arrays arrays;
-  for (int i = 0; i < attributes.GetNumber(); ++i)
-  {
-    arrays.push_back(attributes.NewArray(i, 0));
-  }
+  SparseArrays arrays(attributes);
   Run run(this, mesh, attributes, this->GetSettings(mesh, grid));
   const bool finished = run.ForEachSlab(grid,
     [&](const Slab& slab)
@@ -487,10 +505,7 @@ bool vtkHybridSurfaceVoxelizer::FillVoxelList(
         points->InsertNextPoint(&centre[0]);
         indices->InsertNextTypedTuple(&voxel[0]);
       }
-      for (std::size_t i = 0; i < arrays.size(); ++i)
-      {
-        arrays[i]->InsertTuples(arrays[i]->GetNumberOfTuples(), slab.Count, 0, slab.Values[i]);
-      }
+      arrays.Append(slab);
     });
   output->SetPoints(points);
   const vtkIdType n = points->GetNumberOfPoints();
@@ -498,7 +513,7 @@ bool vtkHybridSurfaceVoxelizer::FillVoxelList(
   output->SetVerts(n < VTK_TYPE_INT32_MAX ? MakeVertices<vtkTypeInt32Array>(n)
                                           : MakeVertices<vtkTypeInt64Array>(n));
   output->GetPointData()->AddArray(indices);
-  for (const auto& array : arrays)
+  for (const auto& array : arrays.All)
   {
     output->GetPointData()->AddArray(array);
   }
@@ -510,11 +525,7 @@ bool vtkHybridSurfaceVoxelizer::FillHyperTreeGrid(
 {
   vtkVoxelTree tree(grid);
   auto attributes = this->LoadAttributes(mesh);
-  Arrays arrays;
-  for (int i = 0; i < attributes.GetNumber(); ++i)
-  {
-    arrays.push_back(attributes.NewArray(i, 0));
-  }
+  SparseArrays arrays(attributes);
   Run run(this, mesh, attributes, this->GetSettings(mesh, grid));
   const bool finished = run.ForEachSlab(grid,
     [&](const Slab& slab)
@@ -526,14 +537,12 @@ bool vtkHybridSurfaceVoxelizer::FillHyperTreeGrid(
       {
         tree.AddVoxel(offset + slab.GetVoxel(i));
       }
-      for (std::size_t i = 0; i < arrays.size(); ++i)
-      {
-        arrays[i]->InsertTuples(arrays[i]->GetNumberOfTuples(), slab.Count, 0, slab.Values[i]);
-      }
+      arrays.Append(slab);
     });
   this->SetNumberOfFilledVoxels(static_cast<vtkIdType>(tree.GetNumberOfVoxels()));
   return finished &&
-    tree.Build(output, arrays, [&](double) { return !vtkVoxelCompatibility::CheckAbort(this); });
+    tree.Build(
+      output, arrays.All, [&](double) { return !vtkVoxelCompatibility::CheckAbort(this); });
 }
 
 void vtkHybridSurfaceVoxelizer::PrintSelf(ostream& os, vtkIndent indent)

@@ -203,6 +203,7 @@ private:
 
   struct Slab;
   struct Settings;
+  struct SparseArrays;
   class Run;
 
   bool FillVoxelList(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkPolyData* output);

@@ -15,7 +15,8 @@
  * The Raster backend is the paper's: a fragment looks up the bit mask of the voxels behind it in a
  * small table, and masks are combined by the logic operation XOR in integer render targets, up to
  * 1,024 slices in one pass with eight targets; tiles and further passes make larger grids. Vertices
- * are snapped to 1/256 voxel across the columns, as OpenGL's rasterization does. The Compute
+ * are snapped to 1/256 voxel across the columns, as OpenGL's rasterization does, and coordinates
+ * are single precision: slivers some thousand voxels long may be off by more than that. The Compute
  * backend flips one bit where a column crosses the surface and then runs a parity scan along the
  * columns; its arithmetic is double precision.
  *
