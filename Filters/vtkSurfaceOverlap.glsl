@@ -94,9 +94,11 @@ bool overlapsVoxel(OVERLAP overlap, int u, int v, int w)
   return isInside(overlap.VW, REAL(v), REAL(w)) && isInside(overlap.WU, REAL(w), REAL(u));
 }
 
-// The columns of row v that an edge may let through, one more on either side than it would.
-void clipRow(inout ivec2 columns, REAL x, REAL rest)
+// The columns of row v that an edge may let through, and some more, so that rounding here takes none away.
+void clipRow(inout ivec2 columns, REAL x, REAL y, REAL offset, int v)
 {
+  const REAL slack = REAL(1.0e-4);
+  REAL rest = y * REAL(v) + offset + slack * (abs(x) + abs(y));
   if (x == REAL(0.0))
   {
     columns.y = rest < REAL(0.0) ? columns.x : columns.y;
@@ -113,11 +115,11 @@ ivec2 columnsOfRow(OVERLAP overlap, int v, int first, int end)
   {
     return ivec2(0);
   }
-  REAL3 rest = overlap.UV.Y * REAL(v) + overlap.UV.Offset;
+  EDGES edges = overlap.UV;
   ivec2 columns = ivec2(first, end);
-  clipRow(columns, overlap.UV.X.x, rest.x);
-  clipRow(columns, overlap.UV.X.y, rest.y);
-  clipRow(columns, overlap.UV.X.z, rest.z);
+  clipRow(columns, edges.X.x, edges.Y.x, edges.Offset.x, v);
+  clipRow(columns, edges.X.y, edges.Y.y, edges.Offset.y, v);
+  clipRow(columns, edges.X.z, edges.Y.z, edges.Offset.z, v);
   return columns;
 }
 
