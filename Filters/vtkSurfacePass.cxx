@@ -110,6 +110,17 @@ vtkSmartPointer<vtkPolyData> MakeTriangles(float area)
   return mesh;
 }
 
+/// OpenGL 4.3 promises storage buffers to compute shaders alone.
+bool CanDrawFromStorage()
+{
+  constexpr GLint needed = 2;
+  GLint vertex = 0;
+  GLint fragment = 0;
+  glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &vertex);
+  glGetIntegerv(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, &fragment);
+  return vertex >= 1 && fragment >= needed;
+}
+
 Program::Defines GetDefines(
   const vtkSurfacePass::Settings& settings, const vtkSurfacePass::Visitor& visitor)
 {
@@ -217,7 +228,7 @@ bool vtkSurfacePass::Visit(const vtkVoxelMesh& mesh, vtkSlicemap* slicemap,
 void vtkSurfacePass::VisitSlab(
   const vtkVoxelMesh& mesh, const Settings& settings, const Visitor& visitor, const Slab& slab)
 {
-  const bool draws = settings.Large == LargeTriangles::Fragments;
+  const bool draws = settings.Large == LargeTriangles::Fragments && CanDrawFromStorage();
   vtkTriangleDispatch::Job job;
   job.Name = "vtkSurfaceVoxels";
   job.Sources = GetOverlapSources();
