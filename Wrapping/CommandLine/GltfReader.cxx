@@ -11,7 +11,7 @@ int GltfReader::RequestInformation(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   const int result = this->Superclass::RequestInformation(request, input, output);
-  if (this->Loader)
+  if (result != 0)
   {
     const auto model = this->Loader->GetInternalModel();
     model->Images.clear();

@@ -8,6 +8,7 @@
 #include "StagedFiles.h"
 #include "Terminal.h"
 
+#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
@@ -126,6 +127,39 @@ bool IsMetaImage(const std::string& file)
   return format && !format->MakeWriter;
 }
 
+/**
+ * The system's error number as it was when a writer of VTK failed; what VTK does afterwards may
+ * leave another one.
+ */
+class WriterError
+{
+public:
+  explicit WriterError(vtkXMLWriter* writer)
+    : Writer(writer)
+    , Tag(writer->AddObserver(vtkCommand::ModifiedEvent, this, &WriterError::Keep))
+  {
+    errno = 0;
+  }
+  ~WriterError() { this->Writer->RemoveObserver(this->Tag); }
+  WriterError(const WriterError&) = delete;
+  void operator=(const WriterError&) = delete;
+
+  int GetNumber() const { return this->Number != 0 ? this->Number : errno; }
+
+private:
+  void Keep()
+  {
+    if (this->Number == 0 && this->Writer->GetErrorCode() != vtkErrorCode::NoError)
+    {
+      this->Number = errno;
+    }
+  }
+
+  vtkXMLWriter* Writer;
+  unsigned long Tag;
+  int Number = 0;
+};
+
 /// Whether the file ends as an XML file of VTK does; its writer doesn't notice all failures.
 bool IsCompleteXML(const std::string& file)
 {
@@ -191,9 +225,9 @@ void VoxelOutput::WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& 
   writer->SetCompressor(compressor);
   writer->EncodeAppendedDataOff();
   terminal.Watch(writer, "writing");
-  errno = 0;
+  const WriterError systemError(writer);
   const bool written = writer->Write() != 0;
-  const int error = errno;
+  const int error = systemError.GetNumber();
   const std::string reason = messages.TakeReason();
   const auto code = writer->GetErrorCode();
   if (code == vtkErrorCode::OutOfDiskSpaceError || (written && !IsCompleteXML(this->File)))
