@@ -21,6 +21,7 @@
 #include "vtkVersion.h"
 #include "vtkVoxelizer.h"
 
+#include <cstdlib>
 #include <iostream>
 
 namespace
@@ -184,5 +185,12 @@ ExitCode Main(const std::vector<std::string>& words)
 
 int main(int argc, char* argv[])
 {
-  return static_cast<int>(Main({ argv + 1, argv + argc }));
+  const ExitCode code = Main({ argv + 1, argv + argc });
+  // Readers that an exception ended and writers that failed have lost what they held. VTK is not
+  // asked to tidy up what they left half done, nor is it anybody's leak.
+  if (code == ExitCode::Input || code == ExitCode::Output)
+  {
+    std::_Exit(static_cast<int>(code));
+  }
+  return static_cast<int>(code);
 }
