@@ -322,6 +322,10 @@ void vtkVoxelMesh::UploadPoints(const Leaves& leaves)
           [&](vtkIdType begin, vtkIdType end)
           {
             std::memcpy(high + 3 * first + begin, in + begin, (end - begin) * sizeof(float));
+            if (low)
+            {
+              std::fill_n(low.get() + 3 * first + begin, end - begin, 0.0f);
+            }
             float sum = 0.0f;
             float most = 0.0f;
             for (vtkIdType i = begin; i < end; ++i)
