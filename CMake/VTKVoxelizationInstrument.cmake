@@ -50,19 +50,25 @@ if(VTKVOXELIZATION_SANITIZE)
 endif()
 
 # The Python interpreter knows nothing of the sanitizers and keeps memory of its own until the end. It
-# alone reads the options in the file that bears its name; programs that it starts do not.
+# alone reads the options in the file that bears its name; programs that it starts do not. Nor has it
+# the C++ library at its start, when the sanitizer looks for the function that throws exceptions.
 set(VTKVOXELIZATION_SANITIZE_PYTHON_ENVIRONMENT)
 if(VTKVOXELIZATION_SANITIZE AND VTKVOXELIZATION_WRAP_PYTHON AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  execute_process(
-    COMMAND "${CMAKE_CXX_COMPILER}" -print-file-name=libasan.so
-    OUTPUT_VARIABLE address_sanitizer
-    OUTPUT_STRIP_TRAILING_WHITESPACE
-    COMMAND_ERROR_IS_FATAL ANY)
+  set(preloaded)
+  foreach(library IN ITEMS libasan.so libstdc++.so)
+    execute_process(
+      COMMAND "${CMAKE_CXX_COMPILER}" "-print-file-name=${library}"
+      OUTPUT_VARIABLE path
+      OUTPUT_STRIP_TRAILING_WHITESPACE
+      COMMAND_ERROR_IS_FATAL ANY)
+    list(APPEND preloaded "${path}")
+  endforeach()
+  list(JOIN preloaded ":" preloaded)
   set(options_by_program "${CMAKE_BINARY_DIR}/Sanitizers")
   file(REAL_PATH "${Python3_EXECUTABLE}" interpreter)
   get_filename_component(interpreter "${interpreter}" NAME)
   file(WRITE "${options_by_program}/${interpreter}" "detect_leaks=0\n")
   set(VTKVOXELIZATION_SANITIZE_PYTHON_ENVIRONMENT
-    "LD_PRELOAD=set:${address_sanitizer}"
+    "LD_PRELOAD=set:${preloaded}"
     "ASAN_OPTIONS=path_list_append:include_if_exists=${options_by_program}/%b")
 endif()
