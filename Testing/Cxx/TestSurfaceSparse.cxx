@@ -215,8 +215,8 @@ void TestSlabs(VoxelTestChecks& checks)
   std::array<int, 3> before{ 0, 0, -1 };
   for (vtkIdType i = 0; i < indices->GetNumberOfTuples(); ++i)
   {
-    int ijk[3];
-    indices->GetTypedTuple(i, ijk);
+    std::array<int, 3> ijk{};
+    indices->GetTypedTuple(i, ijk.data());
     const std::array<int, 3> now{ ijk[2], ijk[1], ijk[0] };
     ordered = ordered && before < now;
     before = now;
