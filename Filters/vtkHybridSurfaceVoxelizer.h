@@ -194,7 +194,7 @@ protected:
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
   bool NeedsExactTriangulation() override { return true; }
   bool AddArrays(
-    vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkDataSetAttributes* attributes) override;
+    vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkDataSetAttributes* voxels) override;
   std::int64_t GetBytesOfArrays() override;
 
 private:

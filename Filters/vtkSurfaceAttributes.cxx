@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 using vtkVoxelGL::Program;
@@ -204,8 +205,8 @@ void vtkSurfaceAttributes::Normalize(Source& source) const
   const auto n = source.Values.size() / source.Components;
   for (int c = 0; c < source.Components; ++c)
   {
-    double low = VTK_DOUBLE_MAX;
-    double high = VTK_DOUBLE_MIN;
+    double low = std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::lowest();
     for (std::size_t i = 0; i < n; ++i)
     {
       const double value = source.Values[i * source.Components + c];

@@ -233,7 +233,7 @@ void vtkSurfacePass::VisitSlab(
   job.Name = "vtkSurfaceVoxels";
   job.Sources = GetOverlapSources();
   job.Sources.push_back(visitor.Source);
-  job.Sources.push_back(vtkSurfaceVoxelsGLSL);
+  job.Sources.emplace_back(vtkSurfaceVoxelsGLSL);
   job.Defines = GetDefines(settings, visitor);
   job.HasTriangleStage = true;
   job.HasTileStage = !draws;
@@ -279,7 +279,7 @@ void vtkSurfacePass::DrawDeferred(const vtkVoxelMesh& mesh, const Settings& sett
     fragment.push_back(std::move(source));
   }
   fragment.push_back(visitor.Source);
-  fragment.push_back(vtkSurfaceFragmentGLSL);
+  fragment.emplace_back(vtkSurfaceFragmentGLSL);
   Program& program = vtkVoxelGetProgram(this->Context, "vtkSurfaceFragment", defines,
     { { GL_VERTEX_SHADER, { vtkVoxelMeshFetchGLSL, vtkSurfaceFacetGLSL, vtkSurfaceVertexGLSL } },
       { GL_FRAGMENT_SHADER, fragment } },

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -328,11 +329,8 @@ public:
    */
   void SetDrawBuffers(GLsizei count)
   {
-    std::vector<GLenum> buffers;
-    for (GLsizei i = 0; i < count; ++i)
-    {
-      buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
-    }
+    std::vector<GLenum> buffers(count);
+    std::iota(buffers.begin(), buffers.end(), static_cast<GLenum>(GL_COLOR_ATTACHMENT0));
     this->Bind();
     glDrawBuffers(count, buffers.data());
   }
