@@ -31,7 +31,8 @@
  * to the voxel's centre, in index coordinates, by its barycentric coordinates there. Values of all
  * triangles in a voxel are combined by AttributeCombination; the order of the triangles on the GPU
  * does not matter, two runs give identical results. Results are float, and unsigned char for
- * colours of three or more unsigned char. Averages are exact to 1e-6 of the array's range.
+ * colours of three or more unsigned char. Values are single precision;
+ * beyond that, averages are exact to 1e-6 of the array's range.
  *
  * <b>Output ports.</b>
  *  - 0: vtkImageData, as of all voxelizers (see vtkVoxelizer); attributes are further arrays, zero

@@ -86,8 +86,11 @@ bool vtkSolidComputePass::FillParity(
   const glm::ivec3 n = grid.GetDimensions();
   const vtkColumnAxes axes(axis);
   this->StartColumnEnds(target, axes);
-  vtkVoxelGL::Prepare(this->ColumnCarries, this->Context, this->ColumnEnds->GetNumberOfBytes());
-  this->ColumnCarries.Fill(0);
+  if (axis != 0)
+  {
+    vtkVoxelGL::Prepare(this->ColumnCarries, this->Context, this->ColumnEnds->GetNumberOfBytes());
+    this->ColumnCarries.Fill(0);
+  }
   target->GetBuffer().Fill(0);
 
   const int slicesPerSlab = vtkSlicemapSlicesPerSlab(target);
@@ -153,10 +156,13 @@ void vtkSolidComputePass::Scan(vtkSlicemap* target, int axis, const Box& box)
   program.Set("Size", ToArray(size));
   program.Set("QuadsPerRow", static_cast<unsigned int>(quadsPerRow));
   program.Set("EndWordsPerRow", static_cast<unsigned int>(this->ColumnEnds->GetWordsPerRow()));
-  // Columns along y begin anew in each slab.
-  const std::int64_t carryBytes = quadsPerRow * WordsPerQuad * WordBytes;
-  this->ColumnCarries.BindRange(GL_SHADER_STORAGE_BUFFER, 2,
-    axis == 1 ? firstSlice * carryBytes : 0, (axis == 1 ? size.z : size.y) * carryBytes);
+  if (axis != 0)
+  {
+    // Columns along y begin anew in each slab.
+    const std::int64_t carryBytes = quadsPerRow * WordsPerQuad * WordBytes;
+    this->ColumnCarries.BindRange(GL_SHADER_STORAGE_BUFFER, 2,
+      axis == 1 ? firstSlice * carryBytes : 0, (axis == 1 ? size.z : size.y) * carryBytes);
+  }
   const std::int64_t invocations =
     axis == 0 ? std::int64_t(size.y) * size.z : quadsPerRow * (axis == 1 ? size.z : size.y);
   const int length = axis == 0 ? 1 : size[axis];

@@ -38,8 +38,6 @@ constexpr unsigned int ImageUnit = 7;
 constexpr GLuint ResultsBinding = 0;
 constexpr GLuint TrianglesBinding = 1;
 
-using Leaf = vtkSmartPointer<vtkPolyData>;
-
 /// The array of a leaf, checked, and whether it belongs to the points.
 struct FoundArray
 {

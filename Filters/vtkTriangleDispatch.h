@@ -19,7 +19,6 @@
 
 #include <functional>
 #include <glm/glm.hpp>
-#include <limits>
 #include <string>
 #include <vector>
 
