@@ -51,6 +51,14 @@ std::int64_t GetOffsetAlignment()
   return alignment;
 }
 
+/// Whether so many triangles lie between the columns that it pays to sort them out beforehand.
+bool MostMissAllColumns(
+  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const vtkColumnAxes& axes)
+{
+  constexpr double largestMeanArea = 0.06;
+  const glm::dvec3 areas = mesh.EstimateProjectedAreas(grid.GetWorldToIndex());
+  return areas[axes.Depth] < largestMeanArea * mesh.GetNumberOfTriangles();
+}
 }
 
 /// Voxels of one dispatch, half open, in index coordinates in the order x, y, z.
@@ -125,6 +133,7 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
   job.Sources = { vtkSolidCrossingsGLSL };
   job.Defines = defines;
   job.Axes = axes;
+  job.FirstStage = MostMissAllColumns(mesh, grid, axes) ? "SIEVE" : "";
   job.SetUniforms = [&](Program& program)
   {
     program.Set("First", ToArray(axes(box.First)));

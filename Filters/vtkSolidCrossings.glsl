@@ -6,9 +6,14 @@
 //
 // COLUMN_AXIS  0, 1 or 2: the columns run along x, y or z. The other two axes are u and v, in the
 //              order of x, y, z; "depth" runs along the column. Index coordinates come as (u, v, depth).
-// TILES, UNCUT defined in the stages of large triangles, see vtkVoxelTileQueue.glsl. Otherwise an
+// CUT, TILES, UNCUT  defined in the stages of large triangles, see vtkVoxelTileQueue.glsl. Otherwise an
 //              invocation does one triangle.
+// SIEVE        defined in a first stage that only lists the triangles that may cover a column, in
+//              single precision on the safe side; the stage with REST defined does them. Pays where
+//              most triangles lie between the columns.
 // WINDING      defined when crossings are counted with their sign instead of toggled.
+//
+// SingleMargin how far index coordinates in single precision may be off
 //
 // First, End   the box of voxels to fill, in (u, v, depth), index coordinates, half open
 // Begins, Ends whether the box holds the first, and the last, voxel of the columns. Crossings before
@@ -35,6 +40,7 @@ uniform ivec3 GridFirst;
 uniform uint WordsPerRow;
 uniform uint RowsPerSlice;
 uniform uint EndWordsPerRow;
+uniform float SingleMargin;
 
 #ifdef WINDING
 layout(std430, binding = 0) buffer Counters
@@ -187,7 +193,12 @@ void rectangleOf(Outline t, out ivec2 first, out ivec2 end)
   end.y = boundedCeil(t.Highest.y, First.y, End.y);
 }
 
-#if defined(TILES) || defined(UNCUT)
+#if defined(CUT) || defined(TILES) || defined(UNCUT)
+
+void rectangleOf(uint triangle, out ivec2 first, out ivec2 end)
+{
+  rectangleOf(outlineOf(fetchTriangle(triangle)), first, end);
+}
 
 void doTile(uint triangle, uvec2 tile)
 {
@@ -206,7 +217,16 @@ void doTile(uint triangle, uvec2 tile)
   }
 }
 
-#else
+#elif defined(SIEVE)
+
+// Whether the origin is left or right of all edges, or so close to them that single precision can't tell.
+bool mayCover(vec2 a, vec2 b, vec2 c)
+{
+  vec3 distances = vec3(a.x * b.y - a.y * b.x, b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x);
+  vec3 size = vec3(abs(a.x) + abs(a.y), abs(b.x) + abs(b.y), abs(c.x) + abs(c.y));
+  vec3 slack = 4.0 * SingleMargin * (size + size.yzx + SingleMargin);
+  return !(any(lessThan(distances, -slack)) && any(greaterThan(distances, slack)));
+}
 
 void main()
 {
@@ -215,12 +235,41 @@ void main()
   {
     return;
   }
+  StoredTriangle stored = fetchTriangle(triangle);
+  vec2 a = roughIndexOf(stored.A).xy;
+  vec2 b = roughIndexOf(stored.B).xy;
+  vec2 c = roughIndexOf(stored.C).xy;
+  vec2 first = max(ceil(min(a, min(b, c)) - SingleMargin), vec2(First.xy));
+  vec2 end = min(floor(max(a, max(b, c)) + SingleMargin) + 1.0, vec2(End.xy));
+  vec2 size = max(end - first, vec2(0.0));
+  float columns = size.x * size.y;
+  if (columns > 1.0 || (columns > 0.0 && mayCover(a - first, b - first, c - first)))
+  {
+    enqueueRest(triangle);
+  }
+}
+
+#else
+
+void main()
+{
+  uint triangle;
+#ifdef REST
+  bool exists = restTriangle(triangle);
+#else
+  bool exists = triangleOfInvocation(triangle);
+#endif
+  if (!exists)
+  {
+    return;
+  }
   Outline t = outlineOf(fetchTriangle(triangle));
   ivec2 first, end;
   rectangleOf(t, first, end);
   float columns = float(end.x - first.x) * float(end.y - first.y);
-  if (columns > float(DIRECT_COLUMNS) && deferTriangle(triangle, first, end))
+  if (columns > float(DIRECT_COLUMNS))
   {
+    enqueueLarge(triangle);
     return;
   }
 

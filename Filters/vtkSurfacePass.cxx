@@ -241,6 +241,7 @@ void vtkSurfacePass::VisitSlab(
   const bool isClassified =
     classified && classified->Prepare(mesh, slab.Slicemap->GetGrid(), settings);
   job.Classified = classified ? &classified->Triangles : nullptr;
+  job.FirstStage = classified ? "CLASSIFY" : "";
   vtkVoxelGL::Buffer& deferred = classified ? classified->Deferred : this->Deferred;
   if (draws)
   {

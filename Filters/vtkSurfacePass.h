@@ -44,8 +44,7 @@ public:
   struct Settings;
 
   /// CutoffArea: triangles whose bounds have more columns of voxels are large. One invocation does
-  /// no more than LargestCutoffArea, since renderers in software end its loops after 65,535 turns
-  /// (MAX_COLUMNS in vtkVoxelTileQueue.glsl).
+  /// no more than LargestCutoffArea, since renderers in software end its loops after 65,535 turns.
   static constexpr float LargestCutoffArea = 8192.0f;
   static constexpr float AllAreLarge = -1.0f;
 

@@ -6,12 +6,12 @@
 //
 // In the first stage an invocation does one triangle: a small one at once, unless it wants double precision,
 // while others wait for a later stage:
-//   TRIANGLES        defined: an invocation does a small triangle in double precision
-//   TILES and UNCUT  defined: a workgroup does a tile of a large triangle, an invocation a row of the tile
-//   fragments        with DEFER_TO_FRAGMENTS defined in the first stage, storage buffer 3 begins with the
-//                    arguments of an indirect draw, six vertices a large triangle, then come their ids
+//   TRIANGLES          defined: an invocation does a small triangle in double precision
+//   CUT, TILES, UNCUT  defined: a workgroup does tiles of a large triangle, an invocation a row of a tile
+//   fragments          with DEFER_TO_FRAGMENTS defined in the first stage, storage buffer 3 begins with the
+//                      arguments of an indirect draw, six vertices a large triangle, then come their ids
 // With CLASSIFY defined in the first stage small triangles wait too, for the stage
-//   SMALL            defined: an invocation does a small triangle
+//   REST            defined: an invocation does a small triangle
 // The stages are there because renderers in software run all of a shader, whatever its conditions and returns.
 //
 // CutoffArea triangles whose bounds have more columns than this are large; negative: all are
@@ -29,7 +29,7 @@ layout(std430, binding = 3) buffer Deferred
 };
 #endif
 
-#if !defined(TILES) && !defined(UNCUT)
+#if !defined(CUT) && !defined(TILES) && !defined(UNCUT)
 
 #ifdef TRIANGLES
 #define TRIANGLE_OVERLAP FarOverlap
@@ -60,7 +60,15 @@ void visitTriangle(Facet f, TRIANGLE_OVERLAP overlap)
 
 #endif
 
-#if defined(TILES) || defined(UNCUT)
+#if defined(CUT) || defined(TILES) || defined(UNCUT)
+
+void rectangleOf(uint triangle, out ivec2 first, out ivec2 end)
+{
+  Facet f;
+  bool exists = facetOf(triangle, f);
+  first = exists ? f.First.xy : ivec2(0);
+  end = exists ? f.End.xy : ivec2(0);
+}
 
 void doTile(uint triangle, uvec2 tile)
 {
@@ -87,25 +95,24 @@ void main()
 
 #else
 
-bool deferLarge(uint triangle, Facet f)
+void deferLarge(uint triangle)
 {
 #ifdef DEFER_TO_FRAGMENTS
   const uint verticesPerTriangle = 6u;
   uint vertex = atomicAdd(NumberOfVertices, verticesPerTriangle);
   DeferredTriangles[vertex / verticesPerTriangle] = triangle;
-  return true;
 #else
-  return deferTriangle(triangle, f.First.xy, f.End.xy);
+  enqueueLarge(triangle);
 #endif
 }
 
-#ifdef SMALL
+#ifdef REST
 
 void main()
 {
   uint triangle;
   Facet f;
-  if (smallTriangle(triangle) && facetOf(triangle, f))
+  if (restTriangle(triangle) && facetOf(triangle, f))
   {
     NearOverlap overlap;
     setUpOverlap(overlap, f, float(NEAR_MARGIN + Margin));
@@ -123,8 +130,9 @@ void main()
   {
     return;
   }
-  if (columnsOf(f) > CutoffArea && deferLarge(triangle, f))
+  if (columnsOf(f) > CutoffArea)
   {
+    deferLarge(triangle);
     return;
   }
   if (!f.Near)
@@ -133,7 +141,7 @@ void main()
     return;
   }
 #ifdef CLASSIFY
-  enqueueSmall(triangle);
+  enqueueRest(triangle);
 #else
   NearOverlap overlap;
   setUpOverlap(overlap, f, float(NEAR_MARGIN + Margin));

@@ -22,14 +22,15 @@ namespace
 {
 // As in vtkVoxelTileQueue.glsl.
 constexpr std::size_t QueueCapacity = 262144;
-constexpr std::size_t QueueItemBytes = 8;
-constexpr std::size_t QueueHeaderWords = 18;
+constexpr std::size_t WordsPerTile = 2;
+constexpr std::size_t QueueHeaderWords = 21;
 constexpr std::size_t WordBytes = 4;
 constexpr int TileSize = 64;
-constexpr GLintptr TileGroupsOffset = 0;
-constexpr GLintptr UncutGroupsOffset = 12;
-constexpr GLintptr TriangleGroupsOffset = 24;
-constexpr GLintptr SmallGroupsOffset = 36;
+constexpr GLintptr CutGroupsOffset = 0;
+constexpr GLintptr TileGroupsOffset = 12;
+constexpr GLintptr UncutGroupsOffset = 24;
+constexpr GLintptr TriangleGroupsOffset = 36;
+constexpr GLintptr RestGroupsOffset = 48;
 constexpr GLuint QueueBinding = 2;
 
 constexpr unsigned int MeshUnit = 1;
@@ -88,11 +89,13 @@ std::uint32_t TilesOfGrid(const vtkVoxelGrid& grid)
   return static_cast<std::uint32_t>((std::max({ n.x, n.y, n.z }) + TileSize) / TileSize + 1);
 }
 
-double GetMargin(double largestTerms)
+/// What rounding may do to an index coordinate.
+template <typename Real>
+Real GetMargin(double roundings, double largestTerms)
 {
   constexpr double smallest = 1e-6;
-  constexpr double roundings = 64.0;
-  return std::max(smallest, roundings * std::numeric_limits<double>::epsilon() * largestTerms);
+  return static_cast<Real>(
+    std::max(smallest, roundings * std::numeric_limits<Real>::epsilon() * largestTerms));
 }
 }
 
@@ -100,14 +103,15 @@ namespace
 {
 /// An empty queue with room for all triangles of the mesh, small ones too when they are to wait.
 void StartQueue(vtkVoxelGL::Buffer& queue, const vtkVoxelGL::Context& context,
-  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, bool smallOnesWait)
+  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, bool leavesRest)
 {
   const std::uint32_t triangles = mesh.GetNumberOfTriangles();
-  const std::size_t items = QueueCapacity + std::size_t(triangles) * (smallOnesWait ? 2 : 1);
-  vtkVoxelGL::Prepare(queue, context, QueueHeaderWords * WordBytes + items * QueueItemBytes);
+  const std::size_t words =
+    QueueHeaderWords + WordsPerTile * QueueCapacity + std::size_t(triangles) * (leavesRest ? 3 : 2);
+  vtkVoxelGL::Prepare(queue, context, words * WordBytes);
   const std::uint32_t tiles = TilesOfGrid(grid);
-  const std::array<std::uint32_t, QueueHeaderWords> header{ 0, 1, 1, tiles, tiles, 0, 0, 1, 1, 0, 1,
-    1, 0, 0, 0, 0, triangles, 0 };
+  const std::array<std::uint32_t, QueueHeaderWords> header{ 0, 1, 1, 0, 1, 1, tiles, tiles, 0, 0, 1,
+    1, 0, 1, 1, 0, 0, 0, 0, 0, triangles };
   queue.Upload(0, sizeof(header), header.data());
 }
 }
@@ -139,16 +143,28 @@ void vtkTriangleDispatch::BindMesh(
   const glm::dmat4 indexFromWorld = grid.GetWorldToIndex();
   mesh.Bind(program, MeshUnit);
   SetIndexFromWorld(program, indexFromWorld, axes, !GetAlignedAxes(indexFromWorld, axes).empty());
-  program.Set("Margin", GetMargin(GetLargestTerms(mesh, indexFromWorld)));
+  const double largestTerms = GetLargestTerms(mesh, indexFromWorld);
+  program.Set("Margin", GetMargin<double>(64.0, largestTerms));
+  program.Set("SingleMargin", GetMargin<float>(16.0, largestTerms));
+}
+
+void vtkTriangleDispatch::StartLaterStages()
+{
+  Program& program = vtkVoxelGetProgram(this->Context, "vtkVoxelTileQueue",
+    { { "ARGUMENTS", "1" } }, { { GL_COMPUTE_SHADER, { vtkVoxelTileQueueGLSL } } });
+  program.Use();
+  glDispatchCompute(1, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Job& job)
 {
   vtkVoxelGL::Buffer& queue = job.Classified ? job.Classified->Queue : this->Queue;
+  const bool leavesRest = !job.FirstStage.empty();
   const bool isClassified = job.Classified && job.Classified->IsKnown;
   if (!isClassified)
   {
-    StartQueue(queue, this->Context, mesh, grid, job.Classified != nullptr);
+    StartQueue(queue, this->Context, mesh, grid, leavesRest);
   }
   queue.BindBase(GL_SHADER_STORAGE_BUFFER, QueueBinding);
 
@@ -168,15 +184,16 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
 
   if (!isClassified)
   {
-    if (job.Classified)
+    if (leavesRest)
     {
-      defines["CLASSIFY"] = "1";
+      defines[job.FirstStage] = "1";
     }
     use();
-    defines.erase("CLASSIFY");
+    defines.erase(job.FirstStage);
     vtkVoxelDispatch(mesh.GetNumberOfTriangles());
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
+  this->StartLaterStages();
   const auto runStage = [&](const char* name, GLintptr groups)
   {
     defines[name] = "1";
@@ -188,7 +205,12 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   if (job.Classified)
   {
     job.Classified->IsKnown = true;
-    runStage("SMALL", SmallGroupsOffset);
+  }
+  if (leavesRest)
+  {
+    runStage("REST", RestGroupsOffset);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    this->StartLaterStages();
   }
   if (job.HasTriangleStage)
   {
@@ -196,6 +218,8 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   }
   if (job.HasTileStage)
   {
+    runStage("CUT", CutGroupsOffset);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     runStage("TILES", TileGroupsOffset);
     runStage("UNCUT", UncutGroupsOffset);
   }

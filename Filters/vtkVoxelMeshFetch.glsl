@@ -70,6 +70,20 @@ dvec3 indexOf(StoredPoint point)
   return index;
 }
 
+// The same in single precision, within SingleMargin.
+vec3 roughIndexOf(StoredPoint point)
+{
+#ifdef AXES_ALIGNED
+  vec3 scale = vec3(IndexFromWorld[0].x, IndexFromWorld[1].x, IndexFromWorld[2].x);
+  vec3 offset = vec3(IndexFromWorld[0].w, IndexFromWorld[1].w, IndexFromWorld[2].w);
+  return point.High.AXES_ALIGNED * scale + offset;
+#else
+  vec4 world = vec4(point.High, 1.0);
+  return vec3(dot(vec4(IndexFromWorld[0]), world), dot(vec4(IndexFromWorld[1]), world),
+    dot(vec4(IndexFromWorld[2]), world));
+#endif
+}
+
 // The functions on doubles below avoid what renderers in software do number by number in double precision:
 // ceil, min, max and clamp.
 

@@ -1,6 +1,6 @@
 // Proves inputs that other voxelizers got wrong: grids that must enclose the mesh, extents that
 // begin anywhere, planes through vertices and edges, shells within shells, tiny, huge and far away
-// units.
+// units, triangles much smaller than voxels.
 
 #include "VoxelComparison.h"
 #include "VoxelSolidTests.h"
@@ -144,6 +144,23 @@ bool TestUnits()
   return good;
 }
 
+// Most of these triangles lie between the columns, some end on them, and some are large.
+bool TestFineMeshes()
+{
+  bool good = true;
+  const Mesh fine = Sphere({ 12.0, 13.0, 14.0 }, 9.25, 220);
+  const Mesh beside = Appended({ fine, Box({ 26.0, 5.5, 5.5 }, { 60.0, 40.0, 40.0 }) });
+  const auto grid = MakeGrid({ 0, 63, 0, 45, 0, 44 }, { 0, 0, 0 }, { 1, 1, 1 });
+  const auto turned = MakeGrid({ -3, 60, 0, 45, 0, 44 }, { 0.3, 0.1, -0.2 }, { 1, 1, 1 },
+    { 0.96, -0.28, 0, 0.28, 0.96, 0, 0, 0, 1 });
+  good &= CheckExact("fine sphere beside a box", beside, grid);
+  good &= CheckExact("fine sphere on a lattice", OnLattice(fine, 0.25), grid);
+  good &= CheckExact("fine sphere in a turned grid", WithDoublePrecision(beside), turned);
+  good &= CheckExact("winding of a fine sphere", beside, grid, { vtkVoxelizer::BACKEND_COMPUTE },
+    Voxelizer::FILL_RULE_NON_ZERO);
+  return good;
+}
+
 void TestOtherCells(VoxelTestChecks& checks)
 {
   vtkNew<vtkPolyData> mixed;
@@ -166,6 +183,7 @@ int TestSolidRegressions(int /*argc*/, char* /*argv*/[])
   TestGrids(checks);
   checks.Check("shells", TestShells());
   checks.Check("units", TestUnits());
+  checks.Check("fine meshes", TestFineMeshes());
   TestOtherCells(checks);
   return checks.Passed() ? EXIT_SUCCESS : EXIT_FAILURE;
 }
