@@ -3,27 +3,17 @@
 #include "vtkVoxelizer.h"
 
 #include "vtkAlgorithmOutput.h"
-#include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkRenderWindow.h"
 #include "vtkSlicemap.h"
-#include "vtkSlicemapImage.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkVoxelCompatibility.h"
 #include "vtkVoxelContext.h"
-#include "vtkVoxelContextScope.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
-
-#include <vtksys/SystemInformation.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -32,13 +22,8 @@
 
 namespace
 {
-constexpr double BytesPerMebibyte = 1048576.0;
-
 /// Counts of voxels within this fraction above a whole number are that number.
 constexpr double CountTolerance = 1e-6;
-
-/// Ask the system for its free memory only for outputs that could matter.
-constexpr std::int64_t CarelessBytes = std::int64_t(1) << 28;
 
 struct InvalidGrid : std::runtime_error
 {
@@ -56,22 +41,12 @@ std::int64_t VoxelsAlong(double length, double size)
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
 }
 
-std::int64_t GetFreeBytes()
-{
-  vtksys::SystemInformation system;
-  system.RunMemoryCheck();
-  return static_cast<std::int64_t>(system.GetAvailablePhysicalMemory()) * 1048576;
-}
 }
 
 struct vtkVoxelizer::Internals
 {
-  vtkNew<vtkVoxelContext> Context;
-  vtkSmartPointer<vtkSlicemap> Slicemap;
   vtkVoxelMesh Mesh;
   vtkIdType NumberOfTriangles = 0;
-  vtkIdType NumberOfFilledVoxels = -1; // -1: those of the slicemap
-  std::string RendererName;
 };
 
 vtkCxxSetObjectMacro(vtkVoxelizer, ReferenceImage, vtkImageData);
@@ -86,39 +61,6 @@ vtkVoxelizer::~vtkVoxelizer()
   this->SetReferenceImage(nullptr);
 }
 
-void vtkVoxelizer::SetOutputScalarType(int type)
-{
-  if (type != VTK_UNSIGNED_CHAR && type != VTK_BIT)
-  {
-    vtkErrorMacro("OutputScalarType must be VTK_UNSIGNED_CHAR or VTK_BIT, not " << type << ".");
-    return;
-  }
-  if (this->OutputScalarType != type)
-  {
-    this->OutputScalarType = type;
-    this->Modified();
-  }
-}
-
-void vtkVoxelizer::SetRenderWindow(vtkRenderWindow* window)
-{
-  if (this->State->Context->GetRenderWindow() != window)
-  {
-    this->State->Context->SetRenderWindow(window);
-    this->Modified();
-  }
-}
-
-vtkRenderWindow* vtkVoxelizer::GetRenderWindow()
-{
-  return this->State->Context->GetRenderWindow();
-}
-
-vtkVoxelContext* vtkVoxelizer::GetContext()
-{
-  return this->State->Context;
-}
-
 vtkMTimeType vtkVoxelizer::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();
@@ -127,20 +69,6 @@ vtkMTimeType vtkVoxelizer::GetMTime()
     time = std::max(time, this->ReferenceImage->GetMTime());
   }
   return time;
-}
-
-vtkIdType vtkVoxelizer::GetNumberOfFilledVoxels()
-{
-  if (this->State->NumberOfFilledVoxels >= 0)
-  {
-    return this->State->NumberOfFilledVoxels;
-  }
-  return this->State->Slicemap ? this->State->Slicemap->GetNumberOfFilledVoxels() : -1;
-}
-
-void vtkVoxelizer::SetNumberOfFilledVoxels(vtkIdType count)
-{
-  this->State->NumberOfFilledVoxels = count;
 }
 
 vtkIdType vtkVoxelizer::GetNumberOfTriangles()
@@ -153,19 +81,13 @@ int vtkVoxelizer::GetNumberOfMeshUploads()
   return this->State->Mesh.GetNumberOfUploads();
 }
 
-const char* vtkVoxelizer::GetRendererName()
-{
-  this->State->RendererName = this->State->Context->GetRendererName();
-  return this->State->RendererName.c_str();
-}
-
 int vtkVoxelizer::ResolveBackend()
 {
-  const bool compute = this->State->Context->SupportsCompute();
+  const bool compute = this->GetContext()->SupportsCompute();
   if (this->Backend == BACKEND_COMPUTE && !compute)
   {
     vtkErrorMacro("The Compute backend needs OpenGL 4.3; "
-      << this->GetRendererName() << " has " << this->State->Context->GetVersion() / 10.0
+      << this->GetRendererName() << " has " << this->GetContext()->GetVersion() / 10.0
       << ". Set the backend to Auto or Raster.");
     return BACKEND_AUTO;
   }
@@ -181,12 +103,6 @@ int vtkVoxelizer::FillInputPortInformation(int, vtkInformation* info)
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  return 1;
-}
-
-int vtkVoxelizer::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
   return 1;
 }
 
@@ -281,10 +197,7 @@ vtkVoxelGrid vtkVoxelizer::GetWholeGrid(vtkDataObject* input) const
     grid.Spacing =
       glm::dvec3(this->OutputSpacing[0], this->OutputSpacing[1], this->OutputSpacing[2]);
     grid.Origin = glm::dvec3(this->OutputOrigin[0], this->OutputOrigin[1], this->OutputOrigin[2]);
-    for (int i = 0; i < 9; ++i)
-    {
-      grid.Direction[i % 3][i / 3] = this->OutputDirection[i];
-    }
+    grid.SetDirectionRows(this->OutputDirection);
     if (grid.IsEmpty())
     {
       throw InvalidGrid("The output would be empty: " + grid.Describe() +
@@ -345,23 +258,10 @@ int vtkVoxelizer::RequestInformation(
   }
   catch (const InvalidGrid& error)
   {
-    vtkErrorMacro(<< error.what());
-    return 0;
+    return this->FailInformation(error.what(), outputs);
   }
-  if (this->OutputAttributeType == ATTRIBUTE_CELL)
-  {
-    grid = grid.VoxelsToCells();
-  }
-  output->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), grid.Extent.data(), 6);
-  output->Set(vtkDataObject::SPACING(), &grid.Spacing[0], 3);
-  output->Set(vtkDataObject::ORIGIN(), &grid.Origin[0], 3);
-  const auto direction = grid.GetDirectionRows();
-  output->Set(vtkDataObject::DIRECTION(), direction.data(), 9);
+  this->PublishGrid(grid, output);
   output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-  if (this->OutputAttributeType == ATTRIBUTE_POINT && this->HostOutput)
-  {
-    vtkDataObject::SetPointDataActiveScalarInfo(output, this->OutputScalarType, 1);
-  }
   return 1;
 }
 
@@ -376,46 +276,20 @@ int vtkVoxelizer::RequestUpdateExtent(
   return 1;
 }
 
-void vtkVoxelizer::CheckMemory(const vtkVoxelGrid& grid)
+std::int64_t vtkVoxelizer::GetBytesOfOutput(const vtkVoxelGrid& grid)
 {
-  if (this->HostOutput)
-  {
-    const auto n = grid.GetDimensions();
-    const std::int64_t voxels = grid.GetNumberOfVoxels();
-    this->CheckBytes((this->OutputScalarType == VTK_BIT ? (voxels + 7) / 8 : voxels) +
-        voxels * this->GetBytesOfArrays(),
-      "output of " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +
-        std::to_string(n.z) + " voxels",
-      "Use fewer voxels, or the scalar type VTK_BIT.");
-  }
+  return this->Superclass::GetBytesOfOutput(grid) +
+    grid.GetNumberOfVoxels() * this->GetBytesOfArrays();
 }
 
-void vtkVoxelizer::CheckBytes(
-  std::int64_t bytes, const std::string& what, const std::string& remedy) const
-{
-  if (this->MemoryLimit == 0 && bytes < CarelessBytes)
-  {
-    return;
-  }
-  const std::int64_t limit = this->MemoryLimit > 0 ? this->MemoryLimit : GetFreeBytes();
-  if (bytes > limit)
-  {
-    throw InvalidGrid("The " + what + " takes " +
-      std::to_string(std::llround(bytes / BytesPerMebibyte)) + " MiB, but " +
-      std::to_string(std::llround(limit / BytesPerMebibyte)) +
-      (this->MemoryLimit > 0 ? " MiB are allowed by MemoryLimit. " : " MiB are free. ") + remedy);
-  }
-}
-
-vtkVoxelGrid vtkVoxelizer::GetRequestedPart(
-  const vtkVoxelGrid& whole, vtkInformation* outputInfo) const
+vtkVoxelGrid vtkVoxelizer::GetRequestedPart(const vtkVoxelGrid& whole, vtkInformation* outputInfo)
 {
   vtkVoxelGrid part = whole;
   if (outputInfo->Has(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()))
   {
     // After a failure the pipeline still has the extent of then, which may exceed that of now.
     const int* asked = outputInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT());
-    const int pointsMore = this->OutputAttributeType == ATTRIBUTE_CELL ? 1 : 0;
+    const int pointsMore = this->HasCellVoxels() ? 1 : 0;
     for (int axis = 0; axis < 3; ++axis)
     {
       int& low = part.Extent[2 * axis];
@@ -432,49 +306,29 @@ int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
   const std::function<bool(vtkVoxelMesh& mesh)>& work)
 {
   this->State->NumberOfTriangles = 0;
-  this->State->NumberOfFilledVoxels = -1;
   this->UsedBackend = BACKEND_AUTO;
-  try
+  bool finished = false;
+  const int result = this->RunInContext(
+    "voxelizing", [&] { return prepare(this->GetCheckedGrid(input)); },
+    [&]
+    {
+      const int backend = this->ResolveBackend();
+      if (backend == BACKEND_AUTO)
+      {
+        return false;
+      }
+      this->State->Mesh.Update(this->GetContext()->GetRecord(), input,
+        this->NeedsExactTriangulation() ? vtkVoxelMesh::Triangulation::Exact
+                                        : vtkVoxelMesh::Triangulation::Fans);
+      this->UsedBackend = backend;
+      finished = work(this->State->Mesh);
+      return finished;
+    });
+  if (finished && result)
   {
-    if (!prepare(this->GetCheckedGrid(input)))
-    {
-      return 1;
-    }
-    vtkVoxelContext* context = this->State->Context;
-    vtkVoxelContext::Scope scope(context);
-    if (!scope)
-    {
-      throw std::runtime_error(context->GetErrorMessage());
-    }
-    const int backend = this->ResolveBackend();
-    if (backend == BACKEND_AUTO)
-    {
-      return 0;
-    }
-    this->State->Mesh.Update(context->GetRecord(), input,
-      this->NeedsExactTriangulation() ? vtkVoxelMesh::Triangulation::Exact
-                                      : vtkVoxelMesh::Triangulation::Fans);
-    this->UsedBackend = backend;
-    if (!work(this->State->Mesh))
-    {
-      this->State->Slicemap = nullptr;
-      this->State->NumberOfFilledVoxels = -1;
-      return vtkVoxelCompatibility::CheckAbort(this) ? 1 : 0;
-    }
-    if (!scope.Check("voxelizing"))
-    {
-      throw std::runtime_error(context->GetErrorMessage());
-    }
     this->State->NumberOfTriangles = this->State->Mesh.GetNumberOfTriangles();
   }
-  catch (const std::exception& error)
-  {
-    this->State->Slicemap = nullptr;
-    this->State->NumberOfFilledVoxels = -1;
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+  return result;
 }
 
 int vtkVoxelizer::RequestData(
@@ -483,8 +337,7 @@ int vtkVoxelizer::RequestData(
   vtkDataObject* input = inputs[0]->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT());
   vtkInformation* outputInfo = outputs->GetInformationObject(0);
   auto* output = vtkImageData::GetData(outputInfo);
-  output->Initialize();
-  output->GetInformation()->Remove(vtkSlicemap::SLICEMAP());
+  EmptyOutput(output);
   vtkVoxelGrid part;
   const int result = this->RunOnMesh(
     input,
@@ -501,71 +354,18 @@ int vtkVoxelizer::RequestData(
     [&](vtkVoxelMesh& mesh)
     {
       vtkSlicemap* slicemap = this->TakeSlicemap();
-      slicemap->SetContext(this->State->Context);
       if (!this->Voxelize(mesh, part, slicemap))
       {
         return false;
       }
       this->FillOutput(output, slicemap);
-      return !this->HostOutput || this->AddArrays(mesh, part, this->GetVoxelData(output));
+      return !this->GetHostOutput() || this->AddArrays(mesh, part, this->GetVoxelData(output));
     });
-  if (!this->State->Slicemap)
+  if (!this->GetSlicemap())
   {
-    output->Initialize();
+    EmptyOutput(output);
   }
   return result;
-}
-
-vtkDataSetAttributes* vtkVoxelizer::GetVoxelData(vtkImageData* output) const
-{
-  if (this->OutputAttributeType == ATTRIBUTE_CELL)
-  {
-    return output->GetCellData();
-  }
-  return output->GetPointData();
-}
-
-vtkSlicemap* vtkVoxelizer::TakeSlicemap()
-{
-  // The bits of the last run are overwritten, unless somebody else still looks at them.
-  auto& slicemap = this->State->Slicemap;
-  if (!slicemap || slicemap->GetReferenceCount() > 1)
-  {
-    slicemap = vtkSmartPointer<vtkSlicemap>::New();
-  }
-  return slicemap;
-}
-
-void vtkVoxelizer::FillOutput(vtkImageData* output, vtkSlicemap* slicemap)
-{
-  const vtkVoxelGrid grid = slicemap->GetGrid();
-  const bool cells = this->OutputAttributeType == ATTRIBUTE_CELL;
-  (cells ? grid.VoxelsToCells() : grid).ApplyTo(output);
-  if (this->HostOutput)
-  {
-    const auto array = vtkSlicemapImage::NewArray(grid, this->OutputScalarType);
-    if (!array)
-    {
-      throw std::runtime_error("There is no memory for the " +
-        std::to_string(grid.GetNumberOfVoxels()) + " voxels of the output. Use fewer voxels.");
-    }
-    const bool read = slicemap->Read([&](const std::uint32_t* words)
-      { vtkSlicemapImage::Expand(words, grid, this->ForegroundValue, array); });
-    if (!read)
-    {
-      throw std::runtime_error("The result could not be read back from OpenGL.");
-    }
-    this->GetVoxelData(output)->SetScalars(array);
-  }
-  slicemap->AttachTo(output);
-}
-
-bool vtkVoxelizer::ReportProgress(double fraction)
-{
-  // The rest is for the read-back.
-  constexpr double shareOfPasses = 0.9;
-  this->UpdateProgress(shareOfPasses * fraction);
-  return !vtkVoxelCompatibility::CheckAbort(this);
 }
 
 void vtkVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
@@ -591,18 +391,9 @@ void vtkVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
   print("OutputSpacing", this->OutputSpacing, 3);
   print("OutputOrigin", this->OutputOrigin, 3);
   print("OutputDirection", this->OutputDirection, 9);
-  os << indent << "ForegroundValue: " << this->ForegroundValue << "\n";
-  os << indent << "OutputScalarType: " << vtkImageScalarTypeNameMacro(this->OutputScalarType)
-     << "\n";
-  os << indent
-     << "OutputAttributeType: " << (this->OutputAttributeType == ATTRIBUTE_CELL ? "Cell" : "Point")
-     << "\n";
-  os << indent << "HostOutput: " << this->HostOutput << "\n";
   const char* const backends[] = { "Auto", "Raster", "Compute" };
   os << indent << "Backend: " << backends[this->Backend] << "\n";
   os << indent << "UsedBackend: " << backends[this->UsedBackend] << "\n";
-  os << indent << "RenderWindow: " << this->GetRenderWindow() << "\n";
   os << indent << "CheckWatertight: " << this->CheckWatertight << "\n";
-  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "NumberOfTriangles: " << this->State->NumberOfTriangles << "\n";
 }

@@ -18,11 +18,8 @@
  *     CubicVoxels the other axes of SampleDimensions get the spacing of the coarsest one. Padding
  *     adds whole voxels on every side.
  *
- * <b>Output.</b> Point scalars named "Occupancy": unsigned char, ForegroundValue inside and 0
- * outside, or VTK_BIT (OutputScalarType). With OutputAttributeType Cell the voxels are the cells of
- * the image instead, at the same place in space. The image carries its vtkSlicemap, so that filters
- * of this module behind it work on the GPU without a transfer; with HostOutput off it carries
- * nothing else. Sub-extents requested by UPDATE_EXTENT equal the same part of the whole.
+ * <b>Output.</b> As vtkVoxelAlgorithm tells. Sub-extents requested by UPDATE_EXTENT equal the same
+ * part of the whole.
  *
  * <b>Errors.</b> One error that says what is wrong and what to do, and an empty output: no input,
  * no polygons, NaN or infinite points, an empty or negative grid, a result larger than MemoryLimit,
@@ -36,26 +33,23 @@
 #ifndef vtkVoxelizer_h
 #define vtkVoxelizer_h
 
-#include "vtkImageAlgorithm.h"
+#include "vtkVoxelAlgorithm.h"
 #include "vtkVoxelizationModule.h" // for export macro
 
 #include <cstdint>    // for 64-bit sizes
 #include <functional> // for RunOnMesh
 #include <memory>     // for the implementation
-#include <string>     // for CheckBytes
 
 class vtkDataSetAttributes;
 class vtkImageData;
-class vtkRenderWindow;
 class vtkSlicemap;
-class vtkVoxelContext;
 class vtkVoxelMesh;
 struct vtkVoxelGrid;
 
-class VTKVOXELIZATION_EXPORT vtkVoxelizer : public vtkImageAlgorithm
+class VTKVOXELIZATION_EXPORT vtkVoxelizer : public vtkVoxelAlgorithm
 {
 public:
-  vtkTypeMacro(vtkVoxelizer, vtkImageAlgorithm);
+  vtkTypeMacro(vtkVoxelizer, vtkVoxelAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum BackendType
@@ -63,12 +57,6 @@ public:
     BACKEND_AUTO = 0,
     BACKEND_RASTER = 1,
     BACKEND_COMPUTE = 2
-  };
-
-  enum AttributeType
-  {
-    ATTRIBUTE_POINT = 0,
-    ATTRIBUTE_CELL = 1
   };
 
   ///@{
@@ -152,44 +140,6 @@ public:
 
   ///@{
   /**
-   * Value of the voxels that are set, 1 (default) to 255; those outside are 0.
-   */
-  vtkSetClampMacro(ForegroundValue, int, 1, 255);
-  vtkGetMacro(ForegroundValue, int);
-  ///@}
-
-  ///@{
-  /**
-   * VTK_UNSIGNED_CHAR (default) or VTK_BIT, which needs an eighth of the memory.
-   */
-  virtual void SetOutputScalarType(int type);
-  vtkGetMacro(OutputScalarType, int);
-  void SetOutputScalarTypeToUnsignedChar() { this->SetOutputScalarType(VTK_UNSIGNED_CHAR); }
-  void SetOutputScalarTypeToBit() { this->SetOutputScalarType(VTK_BIT); }
-  ///@}
-
-  ///@{
-  /**
-   * Whether voxels are the points of the output (default) or its cells.
-   */
-  vtkSetClampMacro(OutputAttributeType, int, ATTRIBUTE_POINT, ATTRIBUTE_CELL);
-  vtkGetMacro(OutputAttributeType, int);
-  void SetOutputAttributeTypeToPoint() { this->SetOutputAttributeType(ATTRIBUTE_POINT); }
-  void SetOutputAttributeTypeToCell() { this->SetOutputAttributeType(ATTRIBUTE_CELL); }
-  ///@}
-
-  ///@{
-  /**
-   * Whether the result is read back into the output's scalars (default). When off the output has
-   * geometry and a vtkSlicemap, but no arrays.
-   */
-  vtkSetMacro(HostOutput, bool);
-  vtkGetMacro(HostOutput, bool);
-  vtkBooleanMacro(HostOutput, bool);
-  ///@}
-
-  ///@{
-  /**
    * Raster draws the mesh into integer render targets (OpenGL 3.2); Compute runs compute shaders in
    * double precision (OpenGL 4.3). Auto (default) takes Compute where the context has it.
    */
@@ -198,15 +148,6 @@ public:
   void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
   void SetBackendToRaster() { this->SetBackend(BACKEND_RASTER); }
   void SetBackendToCompute() { this->SetBackend(BACKEND_COMPUTE); }
-  ///@}
-
-  ///@{
-  /**
-   * The window in whose OpenGL context to work. Default: none, which takes the headless context
-   * that the process shares (see vtkVoxelContext).
-   */
-  virtual void SetRenderWindow(vtkRenderWindow* window);
-  vtkRenderWindow* GetRenderWindow();
   ///@}
 
   ///@{
@@ -220,21 +161,6 @@ public:
   vtkBooleanMacro(CheckWatertight, bool);
   ///@}
 
-  ///@{
-  /**
-   * Most bytes of host memory that the output may take; a larger one is refused before any work. 0
-   * (default) stands for what the system says is free.
-   */
-  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
-  vtkGetMacro(MemoryLimit, vtkTypeInt64);
-  ///@}
-
-  /**
-   * Number of voxels set by the last run; counted on the GPU when first asked for. -1 before any
-   * run.
-   */
-  vtkIdType GetNumberOfFilledVoxels();
-
   /**
    * Number of triangles that the last run voxelized.
    */
@@ -244,12 +170,6 @@ public:
    * How often this filter sent a mesh to the GPU; a change of the grid alone sends nothing.
    */
   int GetNumberOfMeshUploads();
-
-  /**
-   * Name of the OpenGL renderer that the filter works on, such as "llvmpipe (LLVM 15.0.6, 256
-   * bits)"; an empty string when there is none.
-   */
-  const char* GetRendererName();
 
   /**
    * Backend of the last run: BACKEND_RASTER or BACKEND_COMPUTE; BACKEND_AUTO before any run.
@@ -282,20 +202,15 @@ protected:
    * Bytes a voxel that these arrays take.
    */
   virtual std::int64_t GetBytesOfArrays() { return 0; }
+  std::int64_t GetBytesOfOutput(const vtkVoxelGrid& grid) override;
 
   /**
    * The frame of every run: `prepare` gets the checked grid of the whole output, before any work,
    * and may return false when there is nothing to do; `work` finds the mesh on the GPU and the
-   * context current. Exceptions become one error. Returns what a request returns.
+   * context current. See RunInContext.
    */
   int RunOnMesh(vtkDataObject* input, const std::function<bool(const vtkVoxelGrid& whole)>& prepare,
     const std::function<bool(vtkVoxelMesh& mesh)>& work);
-
-  /**
-   * Throws std::runtime_error, which RunOnMesh reports, when `what` takes more bytes than
-   * MemoryLimit allows, or than are free. `remedy` tells the user what to do.
-   */
-  void CheckBytes(std::int64_t bytes, const std::string& what, const std::string& remedy) const;
 
   /**
    * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into
@@ -310,25 +225,12 @@ protected:
   int ResolveBackend();
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-
-  vtkVoxelContext* GetContext();
-
-  /**
-   * For runs that leave no slicemap: the number of voxels that they set.
-   */
-  void SetNumberOfFilledVoxels(vtkIdType count);
-
-  /**
-   * For Voxelize: the fraction done, from 0 to 1; false when the filter was told to stop.
-   */
-  bool ReportProgress(double fraction);
 
 private:
   vtkVoxelizer(const vtkVoxelizer&) = delete;
@@ -337,11 +239,7 @@ private:
   vtkVoxelGrid GridFromBox(const double box[6]) const;
   vtkVoxelGrid GetWholeGrid(vtkDataObject* input) const;
   vtkVoxelGrid GetCheckedGrid(vtkDataObject* input) const;
-  vtkVoxelGrid GetRequestedPart(const vtkVoxelGrid& whole, vtkInformation* outputInfo) const;
-  void CheckMemory(const vtkVoxelGrid& grid);
-  vtkSlicemap* TakeSlicemap();
-  void FillOutput(vtkImageData* output, vtkSlicemap* slicemap);
-  vtkDataSetAttributes* GetVoxelData(vtkImageData* output) const;
+  vtkVoxelGrid GetRequestedPart(const vtkVoxelGrid& whole, vtkInformation* outputInfo);
 
   int SampleDimensions[3] = { 64, 64, 64 };
   int Resolution = 0;
@@ -354,14 +252,9 @@ private:
   double OutputSpacing[3] = { 1.0, 1.0, 1.0 };
   double OutputOrigin[3] = { 0.0, 0.0, 0.0 };
   double OutputDirection[9] = { 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 };
-  int ForegroundValue = 1;
-  int OutputScalarType = VTK_UNSIGNED_CHAR;
-  int OutputAttributeType = ATTRIBUTE_POINT;
-  bool HostOutput = true;
   int Backend = BACKEND_AUTO;
   int UsedBackend = BACKEND_AUTO;
   bool CheckWatertight = true;
-  vtkTypeInt64 MemoryLimit = 0;
 
   struct Internals;
   std::unique_ptr<Internals> State;

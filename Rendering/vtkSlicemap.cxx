@@ -42,12 +42,6 @@ enum Operation
 
 std::atomic<vtkIdType> ReadBacks{ 0 };
 std::atomic<vtkIdType> Uploads{ 0 };
-
-vtkDataArray* GetOccupancy(vtkImageData* image)
-{
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  return scalars ? scalars : image->GetCellData()->GetScalars();
-}
 }
 
 vtkInformationKeyMacro(vtkSlicemap, SLICEMAP, ObjectBase);
@@ -235,7 +229,7 @@ bool vtkSlicemap::Read(const std::function<void(const std::uint32_t* words)>& co
 
 bool vtkSlicemap::Upload(vtkImageData* image)
 {
-  vtkDataArray* scalars = image ? GetOccupancy(image) : nullptr;
+  vtkDataArray* scalars = image ? vtkSlicemapImage::GetScalars(image) : nullptr;
   if (!scalars)
   {
     vtkErrorMacro("The image has no scalars to upload.");
@@ -245,6 +239,13 @@ bool vtkSlicemap::Upload(vtkImageData* image)
   if (scalars == image->GetCellData()->GetScalars())
   {
     grid = grid.CellsToVoxels();
+  }
+  if (scalars->GetNumberOfTuples() != grid.GetNumberOfVoxels())
+  {
+    vtkErrorMacro("The scalars of the image have "
+      << scalars->GetNumberOfTuples() << " values, but the grid with " << grid.Describe()
+      << " takes " << grid.GetNumberOfVoxels() << ".");
+    return false;
   }
   if (!this->Allocate(grid))
   {
@@ -417,18 +418,31 @@ bool vtkSlicemap::Shift(int dx, int dy, int dz)
   return this->RunOperation(SHIFT, nullptr, offset);
 }
 
+bool vtkSlicemap::IsIn(vtkVoxelContext* context)
+{
+  const auto& buffer = this->Storage->Buffer;
+  return buffer && buffer.GetContext() == context->GetRecord();
+}
+
 vtkSlicemap* vtkSlicemap::GetFromImage(vtkImageData* image)
 {
   vtkInformation* information = image->GetInformation();
   auto* slicemap = vtkSlicemap::SafeDownCast(information->Get(SLICEMAP()));
-  vtkDataArray* scalars = GetOccupancy(image);
+  vtkDataArray* scalars = vtkSlicemapImage::GetScalars(image);
   const vtkIdType time = scalars ? static_cast<vtkIdType>(scalars->GetMTime()) : 0;
-  return slicemap && information->Get(SCALARS_TIME()) == time ? slicemap : nullptr;
+  if (!slicemap || information->Get(SCALARS_TIME()) != time)
+  {
+    return nullptr;
+  }
+  const auto grid = vtkVoxelGrid::FromImage(image);
+  const bool isOnGrid =
+    slicemap->GetGrid().IsSameAs(grid) || slicemap->GetGrid().VoxelsToCells().IsSameAs(grid);
+  return isOnGrid ? slicemap : nullptr;
 }
 
 void vtkSlicemap::AttachTo(vtkImageData* image)
 {
-  vtkDataArray* scalars = GetOccupancy(image);
+  vtkDataArray* scalars = vtkSlicemapImage::GetScalars(image);
   image->GetInformation()->Set(SLICEMAP(), this);
   image->GetInformation()->Set(
     SCALARS_TIME(), scalars ? static_cast<vtkIdType>(scalars->GetMTime()) : 0);

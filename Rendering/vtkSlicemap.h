@@ -15,7 +15,7 @@
  *
  * An image made by a filter of this module carries its slicemap in its information, under
  * vtkSlicemap::SLICEMAP(). The next filter takes it from there, provided that it lives in the same
- * context and that the image's scalars were not changed since; otherwise the image is uploaded.
+ * context and that the image was not changed since; otherwise the image is uploaded.
  *
  * The idea of packing the columns of a grid into the bits of integer textures, and its name, are
  * those of
@@ -120,12 +120,17 @@ public:
 
   ///@{
   /**
-   * The slicemap that `image` carries, or null when it carries none or when its scalars were
-   * modified after it was attached; and its counterpart.
+   * The slicemap that `image` carries, or null when it carries none or when its scalars or its
+   * geometry were modified after it was attached; and its counterpart.
    */
   static vtkSlicemap* GetFromImage(vtkImageData* image);
   void AttachTo(vtkImageData* image);
   ///@}
+
+  /**
+   * Whether there are bits in the OpenGL context that `context` hands out.
+   */
+  bool IsIn(vtkVoxelContext* context);
 
   ///@{
   /**

@@ -3,6 +3,9 @@
 #include "vtkSlicemapImage.h"
 
 #include "vtkBitArray.h"
+#include "vtkCellData.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkSlicemap.h"
 #include "vtkUnsignedCharArray.h"
@@ -121,6 +124,12 @@ void ExpandRowsToBits(const std::uint32_t* words, std::int64_t wordsPerRow, std:
 
 namespace vtkSlicemapImage
 {
+vtkDataArray* GetScalars(vtkImageData* image)
+{
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  return scalars ? scalars : image->GetCellData()->GetScalars();
+}
+
 vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
 {
   const std::int64_t voxels = grid.GetNumberOfVoxels();
@@ -143,7 +152,7 @@ vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
     values->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
     array = values;
   }
-  array->SetName("Occupancy");
+  array->SetName(ArrayName);
   return array;
 }
 

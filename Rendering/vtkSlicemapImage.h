@@ -14,13 +14,21 @@
 #include <cstdint>
 
 class vtkDataArray;
+class vtkImageData;
 struct vtkVoxelGrid;
 
 namespace vtkSlicemapImage
 {
+constexpr char ArrayName[] = "Occupancy";
+
+/**
+ * The active point scalars of an image, its active cell scalars if there are only those, or null.
+ */
+vtkDataArray* GetScalars(vtkImageData* image);
+
 /**
  * Room for one value a voxel of type VTK_UNSIGNED_CHAR or VTK_BIT, not initialised, named
- * "Occupancy". Null when there is no memory for it.
+ * ArrayName. Null when there is no memory for it.
  */
 vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType);
 

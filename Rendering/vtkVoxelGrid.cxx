@@ -3,7 +3,10 @@
 #include "vtkVoxelGrid.h"
 
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
 #include "vtkMatrix3x3.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <cmath>
 #include <sstream>
@@ -14,13 +17,7 @@ vtkVoxelGrid vtkVoxelGrid::FromImage(vtkImageData* image)
   image->GetExtent(grid.Extent.data());
   image->GetSpacing(&grid.Spacing[0]);
   image->GetOrigin(&grid.Origin[0]);
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      grid.Direction[column][row] = image->GetDirectionMatrix()->GetElement(row, column);
-    }
-  }
+  grid.SetDirectionRows(image->GetDirectionMatrix()->GetData());
   return grid;
 }
 
@@ -31,6 +28,37 @@ void vtkVoxelGrid::ApplyTo(vtkImageData* image) const
   image->SetOrigin(this->Origin.x, this->Origin.y, this->Origin.z);
   const auto rows = this->GetDirectionRows();
   image->SetDirectionMatrix(rows.data());
+}
+
+vtkVoxelGrid vtkVoxelGrid::FromInformation(vtkInformation* info)
+{
+  vtkVoxelGrid grid;
+  const auto get = [info](vtkInformationDoubleVectorKey* key, double* values)
+  {
+    if (info->Has(key))
+    {
+      info->Get(key, values);
+    }
+  };
+  if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), grid.Extent.data());
+  }
+  get(vtkDataObject::SPACING(), &grid.Spacing[0]);
+  get(vtkDataObject::ORIGIN(), &grid.Origin[0]);
+  auto direction = grid.GetDirectionRows();
+  get(vtkDataObject::DIRECTION(), direction.data());
+  grid.SetDirectionRows(direction.data());
+  return grid;
+}
+
+void vtkVoxelGrid::ApplyTo(vtkInformation* info) const
+{
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), this->Extent.data(), 6);
+  info->Set(vtkDataObject::SPACING(), &this->Spacing[0], 3);
+  info->Set(vtkDataObject::ORIGIN(), &this->Origin[0], 3);
+  const auto direction = this->GetDirectionRows();
+  info->Set(vtkDataObject::DIRECTION(), direction.data(), 9);
 }
 
 std::array<double, 9> vtkVoxelGrid::GetDirectionRows() const
@@ -44,6 +72,14 @@ std::array<double, 9> vtkVoxelGrid::GetDirectionRows() const
     }
   }
   return rows;
+}
+
+void vtkVoxelGrid::SetDirectionRows(const double rows[9])
+{
+  for (int i = 0; i < 9; ++i)
+  {
+    this->Direction[i % 3][i / 3] = rows[i];
+  }
 }
 
 std::int64_t vtkVoxelGrid::GetNumberOfVoxels() const

@@ -20,6 +20,7 @@
 #include <string> // for Describe
 
 class vtkImageData;
+class vtkInformation;
 
 struct VTKVOXELIZATION_EXPORT vtkVoxelGrid
 {
@@ -32,6 +33,12 @@ struct VTKVOXELIZATION_EXPORT vtkVoxelGrid
 
   /// Gives the image this grid's geometry; its scalars are left alone.
   void ApplyTo(vtkImageData* image) const;
+
+  ///@{
+  /// The same for the whole extent and the geometry that a pipeline announces.
+  static vtkVoxelGrid FromInformation(vtkInformation* info);
+  void ApplyTo(vtkInformation* info) const;
+  ///@}
 
   glm::ivec3 GetFirst() const { return { this->Extent[0], this->Extent[2], this->Extent[4] }; }
   glm::ivec3 GetDimensions() const
@@ -56,8 +63,11 @@ struct VTKVOXELIZATION_EXPORT vtkVoxelGrid
   glm::dmat4 GetWorldToIndex() const;
   ///@}
 
+  ///@{
   /// The direction matrix row by row, as VTK has it; GLM stores columns.
   std::array<double, 9> GetDirectionRows() const;
+  void SetDirectionRows(const double rows[9]);
+  ///@}
 
   /// World volume of one voxel.
   double GetVoxelVolume() const;

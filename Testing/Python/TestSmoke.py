@@ -10,7 +10,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
-    vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer, vtkVoxelContext, vtkVoxelizer)
+    vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer, vtkVoxelAlgorithm, vtkVoxelContext,
+    vtkVoxelFilter, vtkVoxelizer)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -78,8 +79,9 @@ class Smoke(unittest.TestCase):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
-        with self.assertRaises(TypeError):
-            vtkVoxelizer()
+        for abstract in vtkVoxelAlgorithm, vtkVoxelFilter, vtkVoxelizer:
+            with self.assertRaises(TypeError):
+                abstract()
 
     def test_properties(self):
         for voxelizer, own in (

@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkVoxelFilter.h"
+
+#include "vtkAlgorithmOutput.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPointData.h"
+#include "vtkSlicemap.h"
+#include "vtkSlicemapImage.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVoxelContext.h"
+#include "vtkVoxelGrid.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace
+{
+/// The voxels of an image, and whether they are its cells.
+struct InputVoxels
+{
+  vtkVoxelGrid Grid;
+  bool AreCells = false;
+};
+
+/// Throws std::runtime_error when there are none.
+InputVoxels FindVoxels(vtkImageData* image)
+{
+  const auto grid = vtkVoxelGrid::FromImage(image);
+  if (grid.IsEmpty())
+  {
+    throw std::runtime_error("The input image is empty: " + grid.Describe() +
+      ". Update its source first, or give it dimensions.");
+  }
+  InputVoxels voxels;
+  vtkDataArray* scalars = vtkSlicemapImage::GetScalars(image);
+  if (scalars)
+  {
+    voxels.AreCells = scalars != image->GetPointData()->GetScalars();
+    voxels.Grid = voxels.AreCells ? grid.CellsToVoxels() : grid;
+    if (scalars->GetNumberOfTuples() != voxels.Grid.GetNumberOfVoxels())
+    {
+      throw std::runtime_error("The scalars of the input have " +
+        std::to_string(scalars->GetNumberOfTuples()) + " values, but its " + grid.Describe() +
+        " takes " + std::to_string(voxels.Grid.GetNumberOfVoxels()) + ".");
+    }
+  }
+  else if (vtkSlicemap* slicemap = vtkSlicemap::GetFromImage(image))
+  {
+    voxels.Grid = slicemap->GetGrid();
+    voxels.AreCells = voxels.Grid.Extent != grid.Extent;
+  }
+  else
+  {
+    throw std::runtime_error(
+      "The input image has no scalars. Give it active point or cell scalars.");
+  }
+  return voxels;
+}
+
+bool IsEmptyRequest(vtkInformation* outputInfo)
+{
+  vtkVoxelGrid asked;
+  if (!outputInfo->Has(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()))
+  {
+    return false;
+  }
+  outputInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), asked.Extent.data());
+  return asked.IsEmpty();
+}
+}
+
+struct vtkVoxelFilter::Internals
+{
+  /// The scalars of one input, as bits on the GPU.
+  struct Upload
+  {
+    vtkVoxelGrid Grid;
+    vtkMTimeType ScalarsTime = 0;
+    vtkSmartPointer<vtkSlicemap> Slicemap;
+  };
+  std::vector<Upload> Uploads; // by input
+
+  vtkSlicemap* UploadOnce(std::size_t input, vtkImageData* image, vtkVoxelContext* context)
+  {
+    const auto grid = FindVoxels(image).Grid;
+    const vtkMTimeType time = vtkSlicemapImage::GetScalars(image)->GetMTime();
+    Upload& upload = this->Uploads[input];
+    const bool known = upload.Slicemap && upload.Slicemap->IsIn(context) &&
+      upload.ScalarsTime == time && upload.Grid == grid;
+    if (!known)
+    {
+      upload.Slicemap = vtkSmartPointer<vtkSlicemap>::New();
+      upload.Slicemap->SetContext(context);
+      if (!upload.Slicemap->Upload(image))
+      {
+        upload.Slicemap = nullptr;
+        throw std::runtime_error("The input could not be sent to OpenGL.");
+      }
+      upload.ScalarsTime = time;
+      upload.Grid = grid;
+    }
+    return upload.Slicemap;
+  }
+};
+
+vtkVoxelFilter::vtkVoxelFilter()
+  : Kept(std::make_unique<Internals>())
+{
+}
+
+vtkVoxelFilter::~vtkVoxelFilter() = default;
+
+void vtkVoxelFilter::SetOutputAttributeType(int type)
+{
+  const bool follows = type >= ATTRIBUTE_INPUT;
+  if (this->FollowsInput != follows)
+  {
+    this->FollowsInput = follows;
+    this->Modified();
+  }
+  if (!follows)
+  {
+    this->Superclass::SetOutputAttributeType(type);
+  }
+}
+
+int vtkVoxelFilter::GetOutputAttributeType()
+{
+  return this->FollowsInput ? ATTRIBUTE_INPUT : this->Superclass::GetOutputAttributeType();
+}
+
+bool vtkVoxelFilter::HasCellVoxels()
+{
+  return this->FollowsInput ? this->InputHasCellVoxels : this->Superclass::HasCellVoxels();
+}
+
+int vtkVoxelFilter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+vtkVoxelGrid vtkVoxelFilter::GetOutputGrid(const vtkVoxelGrid& input)
+{
+  return input;
+}
+
+void vtkVoxelFilter::CheckInputs(const std::vector<vtkVoxelGrid>&) {}
+
+bool vtkVoxelFilter::Process(const std::vector<vtkSlicemap*>&, vtkSlicemap*)
+{
+  return false;
+}
+
+bool vtkVoxelFilter::Execute(
+  const std::vector<vtkSlicemap*>& inputs, const std::vector<vtkImageData*>& outputs)
+{
+  vtkSlicemap* slicemap = this->TakeSlicemap();
+  if (!this->Process(inputs, slicemap))
+  {
+    return false;
+  }
+  this->FillOutput(outputs[0], slicemap);
+  return true;
+}
+
+vtkVoxelGrid vtkVoxelFilter::GetOutputImage(const vtkVoxelGrid& inputImage, bool inputHasCellVoxels)
+{
+  this->InputHasCellVoxels = inputHasCellVoxels;
+  const auto grid =
+    this->GetOutputGrid(inputHasCellVoxels ? inputImage.CellsToVoxels() : inputImage);
+  return this->HasCellVoxels() ? grid.VoxelsToCells() : grid;
+}
+
+int vtkVoxelFilter::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const auto image = vtkVoxelGrid::FromInformation(inputs[0]->GetInformationObject(0));
+  if (image.IsEmpty())
+  {
+    return this->FailInformation("The input image is empty: " + image.Describe() +
+        ". Update its source first, or give it dimensions.",
+      outputs);
+  }
+  bool cells = false;
+  const bool canHaveCells = !image.CellsToVoxels().IsEmpty();
+  if (canHaveCells &&
+    !this->GetOutputImage(image, false).IsSameAs(this->GetOutputImage(image, true)))
+  {
+    // Only the data itself tells for sure whether it has its voxels in points or in cells.
+    if (vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0))
+    {
+      producer->Update(this->GetInputConnection(0, 0)->GetIndex());
+    }
+    try
+    {
+      cells = FindVoxels(vtkImageData::SafeDownCast(this->GetInputDataObject(0, 0))).AreCells;
+    }
+    catch (const std::runtime_error&)
+    {
+      // RequestData says what is wrong.
+    }
+  }
+  this->InputHasCellVoxels = cells;
+  const auto grid = this->GetOutputGrid(cells ? image.CellsToVoxels() : image);
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkInformation* output = outputs->GetInformationObject(port);
+    this->PublishGrid(grid, output);
+    output->Remove(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
+  }
+  return 1;
+}
+
+int vtkVoxelFilter::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* input = inputs[port]->GetInformationObject(i);
+      const auto whole = vtkVoxelGrid::FromInformation(input).Extent;
+      input->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole.data(), 6);
+    }
+  }
+  return 1;
+}
+
+std::vector<vtkSlicemap*> vtkVoxelFilter::FindSlicemaps(const std::vector<vtkImageData*>& images)
+{
+  this->Kept->Uploads.resize(images.size());
+  std::vector<vtkSlicemap*> slicemaps;
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    vtkSlicemap* slicemap = vtkSlicemap::GetFromImage(images[i]);
+    if (slicemap && slicemap->IsIn(this->GetContext()))
+    {
+      this->Kept->Uploads[i] = {};
+      slicemaps.push_back(slicemap);
+    }
+    else if (vtkSlicemapImage::GetScalars(images[i]))
+    {
+      slicemaps.push_back(this->Kept->UploadOnce(i, images[i], this->GetContext()));
+    }
+    else
+    {
+      throw std::runtime_error(
+        "The input image has no scalars, and its bits are in another OpenGL context. Give both "
+        "filters the same render window, or set HostOutput of the first one.");
+    }
+  }
+  return slicemaps;
+}
+
+int vtkVoxelFilter::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  std::vector<vtkImageData*> outputImages;
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    outputImages.push_back(vtkImageData::GetData(outputs, port));
+    EmptyOutput(outputImages.back());
+  }
+  std::vector<vtkImageData*> images;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      images.push_back(vtkImageData::GetData(inputs[port], i));
+    }
+  }
+  const int askedPort = std::max(0, request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()));
+  bool finished = false;
+  const int result = this->RunInContext(
+    "working on voxels",
+    [&]
+    {
+      if (IsEmptyRequest(outputs->GetInformationObject(askedPort)))
+      {
+        return false;
+      }
+      std::vector<vtkVoxelGrid> grids;
+      for (vtkImageData* image : images)
+      {
+        const auto voxels = FindVoxels(image);
+        this->InputHasCellVoxels = grids.empty() ? voxels.AreCells : this->InputHasCellVoxels;
+        grids.push_back(voxels.Grid);
+      }
+      this->CheckInputs(grids);
+      this->CheckMemory(this->GetOutputGrid(grids.front()));
+      return true;
+    },
+    [&]
+    {
+      finished = this->Execute(this->FindSlicemaps(images), outputImages);
+      return finished;
+    });
+  if (!finished || !result)
+  {
+    for (vtkImageData* image : outputImages)
+    {
+      EmptyOutput(image);
+    }
+  }
+  return result;
+}
+
+void vtkVoxelFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "InputHasCellVoxels: " << this->InputHasCellVoxels << "\n";
+}
