@@ -232,8 +232,22 @@ int vtkVoxelFilter::RequestUpdateExtent(
   return 1;
 }
 
-std::vector<vtkSlicemap*> vtkVoxelFilter::FindSlicemaps(const std::vector<vtkImageData*>& images)
+std::vector<vtkImageData*> vtkVoxelFilter::GetInputImages()
 {
+  std::vector<vtkImageData*> images;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < this->GetNumberOfInputConnections(port); ++i)
+    {
+      images.push_back(vtkImageData::SafeDownCast(this->GetInputDataObject(port, i)));
+    }
+  }
+  return images;
+}
+
+std::vector<vtkSlicemap*> vtkVoxelFilter::GetInputSlicemaps()
+{
+  const auto images = this->GetInputImages();
   this->Kept->Uploads.resize(images.size());
   std::vector<vtkSlicemap*> slicemaps;
   for (std::size_t i = 0; i < images.size(); ++i)
@@ -259,21 +273,13 @@ std::vector<vtkSlicemap*> vtkVoxelFilter::FindSlicemaps(const std::vector<vtkIma
 }
 
 int vtkVoxelFilter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   std::vector<vtkImageData*> outputImages;
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     outputImages.push_back(vtkImageData::GetData(outputs, port));
     EmptyOutput(outputImages.back());
-  }
-  std::vector<vtkImageData*> images;
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      images.push_back(vtkImageData::GetData(inputs[port], i));
-    }
   }
   const int askedPort = std::max(0, request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()));
   bool finished = false;
@@ -286,7 +292,7 @@ int vtkVoxelFilter::RequestData(
         return false;
       }
       std::vector<vtkVoxelGrid> grids;
-      for (vtkImageData* image : images)
+      for (vtkImageData* image : this->GetInputImages())
       {
         const auto voxels = FindVoxels(image);
         this->InputHasCellVoxels = grids.empty() ? voxels.AreCells : this->InputHasCellVoxels;
@@ -298,7 +304,7 @@ int vtkVoxelFilter::RequestData(
     },
     [&]
     {
-      finished = this->Execute(this->FindSlicemaps(images), outputImages);
+      finished = this->Execute(this->GetInputSlicemaps(), outputImages);
       return finished;
     });
   if (!finished || !result)

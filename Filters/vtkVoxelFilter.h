@@ -88,6 +88,11 @@ protected:
    */
   virtual void CheckInputs(const std::vector<vtkVoxelGrid>& inputs);
 
+  /**
+   * The slicemaps of all inputs as they are now, in the current context. Throws std::runtime_error.
+   */
+  std::vector<vtkSlicemap*> GetInputSlicemaps();
+
   bool HasCellVoxels() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
@@ -103,7 +108,7 @@ private:
   void operator=(const vtkVoxelFilter&) = delete;
 
   vtkVoxelGrid GetOutputImage(const vtkVoxelGrid& inputImage, bool inputHasCellVoxels);
-  std::vector<vtkSlicemap*> FindSlicemaps(const std::vector<vtkImageData*>& images);
+  std::vector<vtkImageData*> GetInputImages();
 
   bool FollowsInput = true;
   bool InputHasCellVoxels = false;

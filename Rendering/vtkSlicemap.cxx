@@ -10,6 +10,7 @@
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkSlicemapExpression.h"
 #include "vtkSlicemapImage.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkSmartPointer.h"
@@ -19,7 +20,7 @@
 
 #include "vtkSlicemapCountGLSL.h"
 #include "vtkSlicemapLayoutGLSL.h"
-#include "vtkSlicemapOperationsGLSL.h"
+#include "vtkSlicemapShiftGLSL.h"
 
 #include <atomic>
 #include <stdexcept>
@@ -29,16 +30,6 @@ namespace
 constexpr std::int64_t WordBits = 32;
 constexpr std::int64_t WordsPerQuad = 4;
 constexpr std::int64_t WordBytes = 4;
-
-enum Operation
-{
-  UNION = 0,
-  INTERSECTION = 1,
-  DIFFERENCE = 2,
-  SYMMETRIC_DIFFERENCE = 3,
-  COMPLEMENT = 4,
-  SHIFT = 5
-};
 
 std::atomic<vtkIdType> ReadBacks{ 0 };
 std::atomic<vtkIdType> Uploads{ 0 };
@@ -327,7 +318,7 @@ vtkIdType vtkSlicemap::GetNumberOfFilledVoxels()
   }
 }
 
-bool vtkSlicemap::RunOperation(int operation, vtkSlicemap* other, const int offset[3])
+bool vtkSlicemap::Combine(const vtkSlicemapExpression& expression, vtkSlicemap* other)
 {
   if (other && !this->GetGrid().IsSameAs(other->GetGrid()))
   {
@@ -349,28 +340,70 @@ bool vtkSlicemap::RunOperation(int operation, vtkSlicemap* other, const int offs
                   "same render window.");
     return false;
   }
-  const vtkSlicemapKernel kernel("vtkSlicemapOperations", vtkSlicemapOperationsGLSL,
-    { { "OPERATION", std::to_string(operation) } });
+  try
+  {
+    expression.Evaluate(context, { this, other }, this);
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return false;
+  }
+  this->Modified();
+  return true;
+}
+
+bool vtkSlicemap::Union(vtkSlicemap* other)
+{
+  return this->Combine(vtkSlicemapExpression::Join('|', 2), other);
+}
+
+bool vtkSlicemap::Intersection(vtkSlicemap* other)
+{
+  return this->Combine(vtkSlicemapExpression::Join('&', 2), other);
+}
+
+bool vtkSlicemap::Difference(vtkSlicemap* other)
+{
+  return this->Combine(vtkSlicemapExpression::Join('-', 2), other);
+}
+
+bool vtkSlicemap::SymmetricDifference(vtkSlicemap* other)
+{
+  return this->Combine(vtkSlicemapExpression::Join('^', 2), other);
+}
+
+bool vtkSlicemap::Complement()
+{
+  return this->Combine(vtkSlicemapExpression::Complement(), nullptr);
+}
+
+bool vtkSlicemap::Shift(int dx, int dy, int dz)
+{
+  vtkVoxelContext::Scope scope(this->GetContext());
+  if (!scope || !this->Storage->Buffer)
+  {
+    vtkErrorMacro("The slicemap has no bits to work on.");
+    return false;
+  }
   vtkNew<vtkSlicemap> result;
   result->SetContext(this->GetContext());
   if (!result->Allocate(this->GetGrid()))
   {
     return false;
   }
+  const vtkSlicemapKernel kernel("vtkSlicemapShift", vtkSlicemapShiftGLSL);
   try
   {
-    const auto a = vtkSlicemapTexture(this);
-    const auto b = vtkSlicemapTexture(other ? other : this);
+    const auto source = vtkSlicemapTexture(this);
     const glm::ivec3 n = this->GetGrid().GetDimensions();
-    kernel.Run(context, result,
+    kernel.Run(this->GetContext()->GetRecord(), result,
       [&](vtkVoxelGL::Program& program)
       {
-        a.Bind(0);
-        b.Bind(1);
-        program.Set("A", 0);
-        program.Set("B", 1);
+        source.Bind(0);
+        program.Set("Source", 0);
         program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
-        program.Set("Offset", std::array<int, 3>{ offset[0], offset[1], offset[2] });
+        program.Set("Offset", std::array<int, 3>{ dx, dy, dz });
       });
   }
   catch (const std::runtime_error& error)
@@ -380,42 +413,6 @@ bool vtkSlicemap::RunOperation(int operation, vtkSlicemap* other, const int offs
   }
   this->Swap(result);
   return true;
-}
-
-namespace
-{
-constexpr int NoOffset[3] = { 0, 0, 0 };
-}
-
-bool vtkSlicemap::Union(vtkSlicemap* other)
-{
-  return this->RunOperation(UNION, other, NoOffset);
-}
-
-bool vtkSlicemap::Intersection(vtkSlicemap* other)
-{
-  return this->RunOperation(INTERSECTION, other, NoOffset);
-}
-
-bool vtkSlicemap::Difference(vtkSlicemap* other)
-{
-  return this->RunOperation(DIFFERENCE, other, NoOffset);
-}
-
-bool vtkSlicemap::SymmetricDifference(vtkSlicemap* other)
-{
-  return this->RunOperation(SYMMETRIC_DIFFERENCE, other, NoOffset);
-}
-
-bool vtkSlicemap::Complement()
-{
-  return this->RunOperation(COMPLEMENT, nullptr, NoOffset);
-}
-
-bool vtkSlicemap::Shift(int dx, int dy, int dz)
-{
-  const int offset[3] = { dx, dy, dz };
-  return this->RunOperation(SHIFT, nullptr, offset);
 }
 
 bool vtkSlicemap::IsIn(vtkVoxelContext* context)

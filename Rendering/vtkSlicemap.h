@@ -37,6 +37,7 @@
 class vtkImageData;
 class vtkInformationIdTypeKey;
 class vtkInformationObjectBaseKey;
+class vtkSlicemapExpression;
 class vtkVoxelContext;
 struct vtkVoxelGrid;
 namespace vtkVoxelGL
@@ -178,7 +179,7 @@ private:
   vtkSlicemap(const vtkSlicemap&) = delete;
   void operator=(const vtkSlicemap&) = delete;
 
-  bool RunOperation(int operation, vtkSlicemap* other, const int offset[3]);
+  bool Combine(const vtkSlicemapExpression& expression, vtkSlicemap* other);
 
   struct Internals;
   std::unique_ptr<Internals> Storage;

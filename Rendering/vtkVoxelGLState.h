@@ -36,12 +36,12 @@ class vtkVoxelContextRecord;
 class vtkVoxelGLState
 {
 public:
+  static constexpr GLuint Units = 8;
+
   explicit vtkVoxelGLState(const vtkVoxelContextRecord& context);
   void Restore() const;
 
 private:
-  static constexpr GLuint Units = 8;
-
   struct IndexedBuffer
   {
     GLenum Target;

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file vtkSlicemapQuadKernel.h
+ * Private header: programs that compute a slicemap four words at a time, where a quad depends on
+ * the same quad of other slicemaps only. They move the bits as fast as memory does, whereas those
+ * of vtkSlicemapKernel know where a word lies and may look at its neighbours.
+ *
+ * A kernel is a GLSL function `uvec4 kernel(uint quad)`. It reads slicemaps on the same grid by
+ * `uvec4 sourceQuad(usamplerBuffer source, uint quad)`. The target may be one of them. Written
+ * once, it runs as a compute or as a fragment shader.
+ */
+
+#ifndef vtkSlicemapQuadKernel_h
+#define vtkSlicemapQuadKernel_h
+
+#include "vtkVoxelGLObjects.h"
+
+#include <functional>
+#include <string>
+
+class vtkSlicemap;
+
+class vtkSlicemapQuadKernel
+{
+public:
+  vtkSlicemapQuadKernel(
+    std::string name, std::string source, vtkVoxelGL::Program::Defines defines = {})
+    : Name(std::move(name))
+    , Source(std::move(source))
+    , Defines(std::move(defines))
+  {
+  }
+
+  /// Binds textures and sets uniforms of the kernel.
+  using Bind = std::function<void(vtkVoxelGL::Program&)>;
+
+  /// Fills all of `target`, which is allocated, in the current context. Throws std::runtime_error.
+  void Run(const vtkVoxelGL::Context& context, vtkSlicemap* target, const Bind& bind) const;
+
+private:
+  void RunCompute(const vtkVoxelGL::Context&, vtkSlicemap* target, const Bind& bind) const;
+  void RunFragment(const vtkVoxelGL::Context&, vtkSlicemap* target, const Bind& bind) const;
+
+  std::string Name;
+  std::string Source;
+  vtkVoxelGL::Program::Defines Defines;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkSlicemapQuadKernel.h
