@@ -27,7 +27,7 @@ import unittest
 import zlib
 from pathlib import Path
 
-from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkFloatArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkHyperTreeGridNonOrientedGeometryCursor, vtkImageData, vtkPolyData)
 from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkMetaImageReader, vtkPNGReader
@@ -405,6 +405,22 @@ def read_meta(path):
     fields = dict(line.split(" = ", 1) for line in header.splitlines())
     columns = [float(x) for x in fields["TransformMatrix"].split()]
     image.SetDirectionMatrix([columns[3 * (i % 3) + i // 3] for i in range(9)])
+    return Image(image)
+
+
+def read_binvox(path):
+    head, _, runs = path.read_bytes().partition(b"data\n")
+    fields = dict(line.split(" ", 1) for line in head.decode().splitlines())
+    nx, nz, ny = (int(n) for n in fields["dim"].split())
+    spacing = float(fields["scale"]) / max(nx, ny, nz)
+    image = vtkImageData()
+    image.SetDimensions(nx, ny, nz)
+    image.SetSpacing(3 * [spacing])
+    image.SetOrigin([float(x) + spacing / 2 for x in fields["translate"].split()])
+    image.AllocateScalars(VTK_UNSIGNED_CHAR, 1)
+    values = [value for value, count in zip(runs[::2], runs[1::2]) for _ in range(count)]
+    for value, (x, z, y) in zip(values, itertools.product(range(nx), range(nz), range(ny)), strict=True):
+        image.SetScalarComponentFromDouble(x, y, z, 0, value)
     return Image(image)
 
 
@@ -1012,7 +1028,7 @@ class TestSurface(ProgramTest):
 class TestOutput(ProgramTest):
     def test_formats(self):
         for name, read in ("a.vti", read_vti), ("b.mha", read_meta), ("c.mhd", read_meta), (
-                "D.VTI", read_vti):
+                "D.VTI", read_vti), ("e.binvox", read_binvox):
             with self.subTest(name):
                 before = set(self.names()) | {"box.ply"}
                 self.succeed("--voxel-size", 0.5, "--padding", 1, self.mesh(), name)
@@ -1022,6 +1038,13 @@ class TestOutput(ProgramTest):
                     image.values(), [int(is_in_box(center)) for center in image.centers()])
                 made = set(self.names()) - before
                 self.assertEqual(made, {name, "c.zraw"} if name == "c.mhd" else {name})
+
+    def test_binvox_has_cubes_along_axes(self):
+        mesh = self.mesh()
+        self.file("flat.mha", b"NDims = 3\nDimSize = 4 4 4\nElementSpacing = 1 1 2\n"
+                  b"ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + bytes(64))
+        self.complain(OUTPUT, "--reference", "flat.mha", mesh, "out.binvox", naming=["out.binvox", "cubic"])
+        self.complain(USAGE, "--type", "bit", mesh, "out.binvox", naming=["--type", ".vti"])
 
     def test_value(self):
         self.succeed("--value", 200, "--resolution", 8, "--padding", 1, self.mesh(), "out.vti")
@@ -1089,7 +1112,7 @@ class TestOutput(ProgramTest):
         def limit(size):
             return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
-        for name in "out.vti", "out.mha", "out.mhd":
+        for name in "out.vti", "out.mha", "out.mhd", "out.binvox":
             with self.subTest(name):
                 self.file(name, b"old")
                 self.complain(OUTPUT, BUNNY, name, preexec_fn=limit(4096), naming=[name, "File too large"])

@@ -3,15 +3,17 @@ what they are given, that the voxels are a NumPy array of shape (nz, ny, nx), an
 carry the same attributes in every output."""
 import re
 import sys
+import tempfile
 import unittest
 
+import numpy as np
 import vtkvoxelization
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
-    vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer, vtkVoxelAlgorithm, vtkVoxelContext,
-    vtkVoxelFilter, vtkVoxelizer)
+    vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
+    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -75,13 +77,53 @@ def leaves(tree):
 
 class Smoke(unittest.TestCase):
     def test_instances(self):
-        for name in ("vtkHybridSurfaceVoxelizer", "vtkSlicemap", "vtkSlicemapSolidVoxelizer", "vtkVoxelContext"):
+        for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkSlicemap",
+                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext"):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
         for abstract in vtkVoxelAlgorithm, vtkVoxelFilter, vtkVoxelizer:
             with self.assertRaises(TypeError):
                 abstract()
+
+    def test_boolean(self):
+        ball = vtkSlicemapSolidVoxelizer()
+        ball.SetInputData(sphere())
+        ball.SetResolution(24)
+        ball.Update()
+        mask = vtkImageData()
+        mask.DeepCopy(ball.GetOutput())
+        mask.GetPointData().SetScalars(numpy_to_vtk(np.arange(mask.GetNumberOfPoints()) % 2, deep=True))
+        boolean = vtkVoxelBoolean()
+        boolean.SetInputConnection(ball.GetOutputPort())
+        boolean.AddInputDataObject(mask)
+        boolean.SetInputName(1, "mask")
+        boolean.SetExpression("A - mask")
+        boolean.Update()
+        a = vtk_to_numpy(ball.GetOutput().GetPointData().GetScalars())
+        b = vtk_to_numpy(mask.GetPointData().GetScalars())
+        found = vtk_to_numpy(boolean.GetOutput().GetPointData().GetScalars())
+        self.assertTrue(np.array_equal(found, a & (1 - b)))
+        size = np.prod(mask.GetSpacing())
+        self.assertAlmostEqual(boolean.GetVolume(), found.sum() * size)
+        self.assertAlmostEqual(boolean.GetIntersectionVolume(), (a & b).sum() * size)
+        self.assertFalse(boolean.IsEmpty())
+
+    def test_binvox(self):
+        ball = vtkSlicemapSolidVoxelizer()
+        ball.SetInputData(sphere())
+        ball.SetResolution(24)
+        with tempfile.TemporaryDirectory() as folder:
+            writer = vtkBinvoxWriter()
+            writer.SetInputConnection(ball.GetOutputPort())
+            writer.SetFileName(folder + "/ball.binvox")
+            self.assertEqual(writer.Write(), 1)
+            self.assertTrue(vtkBinvoxReader.CanReadFile(folder + "/ball.binvox"))
+            reader = vtkBinvoxReader()
+            reader.SetFileName(folder + "/ball.binvox")
+            reader.Update()
+        self.assertTrue(np.array_equal(vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()),
+                                       vtk_to_numpy(ball.GetOutput().GetPointData().GetScalars())))
 
     def test_properties(self):
         for voxelizer, own in (

@@ -623,9 +623,9 @@ std::string Options::GetHelp()
          "  OUTPUT            the voxels: "
       << VoxelOutput::GetExtensions()
       << "\n"
-         "                    .vti holds all there is, .mha and .mhd the set voxels alone; with\n"
-         "                    --method surface also .vtp, a list of the voxels, and .htg, an\n"
-         "                    octree, for grids too large to be kept as images\n";
+         "                    .vti holds all there is, .mha, .mhd and .binvox the set voxels\n"
+         "                    alone; with --method surface also .vtp, a list of the voxels, and\n"
+         "                    .htg, an octree, for grids too large to be kept as images\n";
   for (const Group& group : GetGroups())
   {
     out << "\n" << group.Title << ":\n";

@@ -8,6 +8,7 @@
 #include "StagedFiles.h"
 #include "Terminal.h"
 
+#include "vtkBinvoxWriter.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
@@ -101,13 +102,16 @@ struct Format
 {
   const char* Extension;
   VoxelOutput::Kind Kind;
-  vtkSmartPointer<vtkXMLWriter> (*MakeWriter)(); // null for MetaImage
+  vtkSmartPointer<vtkXMLWriter> (*MakeWriter)(); // null for what is not XML
 };
+
+constexpr char BinvoxExtension[] = ".binvox";
 
 constexpr Format Formats[] = {
   { ".vti", VoxelOutput::Kind::Image, MakeWriter<vtkXMLImageDataWriter> },
   { ".mha", VoxelOutput::Kind::Image, nullptr },
   { ".mhd", VoxelOutput::Kind::Image, nullptr },
+  { BinvoxExtension, VoxelOutput::Kind::Image, nullptr },
   { ".vtp", VoxelOutput::Kind::List, MakeWriter<vtkXMLPolyDataWriter> },
   { ".htg", VoxelOutput::Kind::Octree, MakeOctreeWriter },
 };
@@ -121,10 +125,11 @@ const Format* FindFormat(const std::string& file)
   return found == std::end(Formats) ? nullptr : found;
 }
 
-bool IsMetaImage(const std::string& file)
+/// Whether the format has room for more than which voxels are set.
+bool IsXML(const std::string& file)
 {
   const Format* const format = FindFormat(file);
-  return format && !format->MakeWriter;
+  return !format || format->MakeWriter;
 }
 
 /**
@@ -203,15 +208,41 @@ void VoxelOutput::Refuse(const std::string& why) const
 
 void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
 {
-  if (IsMetaImage(this->Target))
+  if (IsXML(this->Target))
+  {
+    this->WriteXML(voxels, messages, terminal);
+  }
+  else if (this->Extension == BinvoxExtension)
+  {
+    this->WriteBinvox(voxels, messages, terminal);
+  }
+  else
   {
     terminal.ShowProgress("writing", 0.0);
     this->WriteMetaImage(vtkImageData::SafeDownCast(voxels));
     terminal.ShowProgress("writing", 1.0);
   }
-  else
+}
+
+void VoxelOutput::WriteBinvox(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
+{
+  vtkNew<vtkBinvoxWriter> writer;
+  writer->SetFileName(this->File.c_str());
+  writer->InPlaceOn();
+  writer->SetInputDataObject(voxels);
+  terminal.Watch(writer, "writing");
+  errno = 0;
+  writer->Write();
+  const int error = errno;
+  const std::string reason = messages.TakeReason();
+  const auto code = writer->GetErrorCode();
+  if (code == vtkErrorCode::OutOfDiskSpaceError)
   {
-    this->WriteXML(voxels, messages, terminal);
+    this->Refuse(OutputFile::Describe(error));
+  }
+  if (code != vtkErrorCode::NoError)
+  {
+    this->Refuse(reason);
   }
 }
 
@@ -283,12 +314,12 @@ bool VoxelOutput::HasBits(const std::string& target)
 
 bool VoxelOutput::HasCells(const std::string& target)
 {
-  return VoxelOutput::GetKind(target) == Kind::Image && !IsMetaImage(target);
+  return VoxelOutput::GetKind(target) == Kind::Image && IsXML(target);
 }
 
 bool VoxelOutput::HasAttributes(const std::string& target)
 {
-  return !IsMetaImage(target);
+  return IsXML(target);
 }
 
 std::string VoxelOutput::GetExtensions()

@@ -17,9 +17,9 @@ class vtkDataObject;
 class vtkImageData;
 
 /**
- * The file, or for .mhd two files, that the voxels go to: those of VTK's XML by its writers;
- * MetaImage here, since VTK's writer leaves the direction matrix out, rounds the spacing and tells
- * of no error.
+ * The file, or for .mhd two files, that the voxels go to: those of VTK's XML by its writers,
+ * .binvox by the module's; MetaImage here, since VTK's writer leaves the direction matrix out,
+ * rounds the spacing and tells of no error.
  */
 class VoxelOutput
 {
@@ -61,6 +61,7 @@ public:
 
 private:
   void WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
+  void WriteBinvox(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
   void WriteMetaImage(vtkImageData* image) const;
   [[noreturn]] void Refuse(const std::string& why) const;
 
