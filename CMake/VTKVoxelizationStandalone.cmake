@@ -20,7 +20,7 @@ set(program_components
   IOCore IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore jsoncpp)
 set(test_components
   ${program_components}
-  CommonTransforms FiltersModeling FiltersSources ImagingHybrid ImagingStencil
+  CommonTransforms FiltersModeling FiltersSources ImagingHybrid ImagingMorphological ImagingStencil
   RenderingOpenGL2 TestingCore TestingRendering)
 set(wrapping_components
   Python WrappingPythonCore WrappingTools)

@@ -294,7 +294,7 @@ int vtkBinvoxReader::RequestInformation(
   this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
-    const vtkVoxelGrid& grid = BinvoxFile(this->FileName).GetGrid();
+    const vtkVoxelGrid grid = BinvoxFile(this->FileName).GetGrid();
     vtkInformation* output = outputs->GetInformationObject(0);
     output->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), grid.Extent.data(), 6);
     output->Set(vtkDataObject::SPACING(), &grid.Spacing[0], 3);

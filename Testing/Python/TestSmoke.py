@@ -13,7 +13,8 @@ from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonO
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
     vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
-    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer)
+    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer,
+    vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -78,7 +79,7 @@ def leaves(tree):
 class Smoke(unittest.TestCase):
     def test_instances(self):
         for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkSlicemap",
-                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext"):
+                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext", "vtkVoxelMorphology"):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
@@ -108,6 +109,20 @@ class Smoke(unittest.TestCase):
         self.assertAlmostEqual(boolean.GetVolume(), found.sum() * size)
         self.assertAlmostEqual(boolean.GetIntersectionVolume(), (a & b).sum() * size)
         self.assertFalse(boolean.IsEmpty())
+
+    def test_morphology(self):
+        values = np.zeros((9, 11, 13), np.uint8)
+        values[4, 5, 6] = 1
+        image = vtkImageData()
+        image.SetDimensions(13, 11, 9)
+        image.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
+        morphology = vtkVoxelMorphology()
+        morphology.SetInputData(image)
+        morphology.SetKernelSize(3, 5, 1)
+        morphology.Update()
+        values[4, 3:8, 5:8] = 1
+        found = vtk_to_numpy(morphology.GetOutput().GetPointData().GetScalars())
+        self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values))
 
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()
