@@ -4,7 +4,8 @@
 
 #include "vtkNew.h"
 #include "vtkSlicemap.h"
-#include "vtkSlicemapKernel.h"
+#include "vtkSlicemapKernel.h" // for vtkSlicemapTexture
+#include "vtkSlicemapQuadKernel.h"
 #include "vtkVoxelGrid.h"
 
 #include "vtkMorphologyGLSL.h"
@@ -21,6 +22,7 @@ namespace
 // As in vtkMorphology.glsl.
 constexpr std::size_t MaximumRows = 128;
 constexpr int MaximumTaps = 4;
+constexpr int WordsPerQuad = 4;
 constexpr unsigned int FullWord = 0xffffffffu;
 
 constexpr unsigned int SourceUnit = 0;
@@ -145,13 +147,15 @@ void vtkMorphologyPass::RunStep(const Step& step, Operation operation, vtkSlicem
   const auto sourceTexture = vtkSlicemapTexture(source);
   const auto partialTexture = vtkSlicemapTexture(step.AddsToRows ? partial : source);
   const glm::ivec3 n = source->GetGrid().GetDimensions();
-  const vtkSlicemapKernel kernel("vtkMorphology", vtkMorphologyGLSL, std::move(defines));
+  const vtkSlicemapQuadKernel kernel("vtkMorphology", vtkMorphologyGLSL, std::move(defines));
   kernel.Run(this->Context, target,
     [&](Program& program)
     {
       sourceTexture.Bind(SourceUnit);
       program.Set("Source", int(SourceUnit));
       program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
+      program.Set(
+        "QuadsPerRow", static_cast<unsigned int>(source->GetWordsPerRow() / WordsPerQuad));
       program.Set("Inverted", erodes ? FullWord : 0u);
       program.Set("Border", borderActs ? FullWord : 0u);
       if (step.AddsToRows)

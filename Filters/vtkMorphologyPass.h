@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file vtkMorphologyPass.h
- * Private header: dilation and erosion of the bits of a slicemap, 32 voxels at a time.
+ * Private header: dilation and erosion of the bits of a slicemap, 128 voxels at a time.
  *
  * A box is done axis by axis, in passes that make lines at most four times as long as they were, so
  * that the cost grows with the logarithm of its size; along x the first pass makes lines of up to

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkVoxelMorphology
- * @brief dilates, erodes, opens and closes voxels on the GPU, 32 of them at a time
+ * @brief dilates, erodes, opens and closes voxels on the GPU, 128 of them at a time
  *
  * The structuring element (KernelType, KernelSize) is laid on every voxel; a dilation sets a voxel
  * where one voxel of the element is set, an erosion leaves it where all are.
