@@ -20,8 +20,8 @@ set(program_components
   IOCore IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore jsoncpp)
 set(test_components
   ${program_components}
-  CommonTransforms FiltersModeling FiltersSources ImagingHybrid ImagingMorphological ImagingStencil
-  RenderingOpenGL2 TestingCore TestingRendering)
+  CommonTransforms FiltersModeling FiltersSources ImagingGeneral ImagingHybrid ImagingMath
+  ImagingMorphological ImagingStencil RenderingOpenGL2 TestingCore TestingRendering)
 set(wrapping_components
   Python WrappingPythonCore WrappingTools)
 

@@ -196,6 +196,11 @@ void vtkSlicemap::Swap(vtkSlicemap* other)
   other->Modified();
 }
 
+void vtkSlicemap::CountReadBack()
+{
+  ++ReadBacks;
+}
+
 bool vtkSlicemap::Read(const std::function<void(const std::uint32_t* words)>& consume)
 {
   vtkVoxelContext::Scope scope(this->GetContext());
@@ -213,7 +218,7 @@ bool vtkSlicemap::Read(const std::function<void(const std::uint32_t* words)>& co
       "OpenGL could not map the bits of the grid with " << this->Storage->Grid.Describe() << ".");
     return false;
   }
-  ++ReadBacks;
+  CountReadBack();
   consume(static_cast<const std::uint32_t*>(mapped.Get()));
   return true;
 }

@@ -157,10 +157,12 @@ public:
   /**
    * For the passes of this module. Allocate gives an uninitialised buffer for `grid`, keeping the
    * present one where it fits, and returns false after one error when it can't; Read maps the words
-   * for reading while `consume` runs and counts as one read-back; Swap exchanges the bits.
+   * for reading while `consume` runs and counts as one read-back, CountReadBack counts what a pass
+   * reads otherwise; Swap exchanges the bits.
    */
   bool Allocate(const vtkVoxelGrid& grid);
   bool Read(const std::function<void(const std::uint32_t* words)>& consume);
+  static void CountReadBack();
   void Swap(vtkSlicemap* other);
   const vtkVoxelGrid& GetGrid() const;
   vtkVoxelGL::Buffer& GetBuffer();

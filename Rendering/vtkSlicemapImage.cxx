@@ -10,63 +10,19 @@
 #include "vtkSlicemap.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVoxelGrid.h"
+#include "vtkVoxelLargeArray.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bitset>
-#include <cstdlib>
 #include <cstring>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 namespace
 {
+using vtkSlicemapImage::ByteTable;
+
 constexpr int WordBits = 32;
-
-/**
- * Where the first touch of fresh pages is most of the cost of a large array, huge pages make it
- * several times cheaper.
- */
-unsigned char* AllocateBytes(std::int64_t bytes)
-{
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-  constexpr std::size_t hugePage = std::size_t(1) << 21;
-  if (std::size_t(bytes) >= 2 * hugePage)
-  {
-    const std::size_t rounded = (std::size_t(bytes) + hugePage - 1) / hugePage * hugePage;
-    void* memory = std::aligned_alloc(hugePage, rounded);
-    if (memory)
-    {
-      madvise(memory, rounded, MADV_HUGEPAGE);
-    }
-    return static_cast<unsigned char*>(memory);
-  }
-#endif
-  return static_cast<unsigned char*>(std::malloc(std::max<std::size_t>(1, bytes)));
-}
-
-using ByteTable = std::array<std::uint64_t, 256>;
-
-/**
- * For each byte of bits, the eight values it stands for, in memory order.
- */
-ByteTable MakeValueTable(int foregroundValue)
-{
-  ByteTable table;
-  for (int bits = 0; bits < 256; ++bits)
-  {
-    std::array<unsigned char, 8> values;
-    for (int i = 0; i < 8; ++i)
-    {
-      values[i] = static_cast<unsigned char>((bits >> i & 1) * foregroundValue);
-    }
-    std::memcpy(&table[bits], values.data(), 8);
-  }
-  return table;
-}
 
 void ExpandRow(const std::uint32_t* words, int n, const ByteTable& table, unsigned char* out)
 {
@@ -124,6 +80,21 @@ void ExpandRowsToBits(const std::uint32_t* words, std::int64_t wordsPerRow, std:
 
 namespace vtkSlicemapImage
 {
+ByteTable MakeValueTable(int foregroundValue)
+{
+  ByteTable table;
+  for (int bits = 0; bits < 256; ++bits)
+  {
+    std::array<unsigned char, 8> values;
+    for (int i = 0; i < 8; ++i)
+    {
+      values[i] = static_cast<unsigned char>((bits >> i & 1) * foregroundValue);
+    }
+    std::memcpy(&table[bits], values.data(), 8);
+  }
+  return table;
+}
+
 vtkDataArray* GetScalars(vtkImageData* image)
 {
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
@@ -133,27 +104,20 @@ vtkDataArray* GetScalars(vtkImageData* image)
 vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
 {
   const std::int64_t voxels = grid.GetNumberOfVoxels();
-  const bool isBit = scalarType == VTK_BIT;
-  unsigned char* memory = AllocateBytes(isBit ? (voxels + 7) / 8 : voxels);
-  if (!memory)
+  if (scalarType == VTK_BIT)
   {
-    return nullptr;
-  }
-  vtkSmartPointer<vtkDataArray> array;
-  if (isBit)
-  {
+    auto* memory =
+      static_cast<unsigned char*>(vtkVoxelAllocate((voxels + 7) / 8, vtkVoxelInitially::Undefined));
+    if (!memory)
+    {
+      return nullptr;
+    }
     auto bits = vtkSmartPointer<vtkBitArray>::New();
+    bits->SetName(ArrayName);
     bits->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
-    array = bits;
+    return bits;
   }
-  else
-  {
-    auto values = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    values->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
-    array = values;
-  }
-  array->SetName(ArrayName);
-  return array;
+  return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(ArrayName, voxels);
 }
 
 void Expand(

@@ -11,6 +11,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <cstdint>
 
 class vtkDataArray;
@@ -31,6 +32,12 @@ vtkDataArray* GetScalars(vtkImageData* image);
  * ArrayName. Null when there is no memory for it.
  */
 vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType);
+
+/**
+ * For each byte of bits, the eight values it stands for, in memory order.
+ */
+using ByteTable = std::array<std::uint64_t, 256>;
+ByteTable MakeValueTable(int foregroundValue);
 
 /**
  * Bits to an array made by NewArray.

@@ -18,33 +18,40 @@ using vtkVoxelGL::Program;
 namespace
 {
 constexpr std::int64_t QuadBytes = 16;
-constexpr std::int64_t QuadsPerBlock = 4096; // a multiple of all alignments of storage buffers
+constexpr std::int64_t QuadWords = 4;
+constexpr std::int64_t CallsPerBlock = 4096; // a multiple of all alignments of storage buffers
 
 /// Render targets are so large at most.
 constexpr GLsizei MaximumLine = 4096;
 constexpr GLsizei MaximumLines = 1024;
-
-std::int64_t GetNumberOfQuads(vtkSlicemap* slicemap)
-{
-  return slicemap->GetNumberOfWords() * static_cast<std::int64_t>(sizeof(std::uint32_t)) /
-    QuadBytes;
 }
+
+std::int64_t vtkSlicemapQuadKernel::GetQuadsPerCall() const
+{
+  const auto planes = this->Defines.find("PLANES");
+  return planes == this->Defines.end() ? 1 : std::stoll(planes->second);
 }
 
 void vtkSlicemapQuadKernel::Run(const Context& context, vtkSlicemap* target, const Bind& bind) const
 {
+  this->Run(context, target->GetBuffer(), target->GetNumberOfWords() / QuadWords, bind);
+}
+
+void vtkSlicemapQuadKernel::Run(
+  const Context& context, vtkVoxelGL::Buffer& target, std::int64_t calls, const Bind& bind) const
+{
   if (context->SupportsCompute())
   {
-    this->RunCompute(context, target, bind);
+    this->RunCompute(context, target, calls, bind);
   }
   else
   {
-    this->RunFragment(context, target, bind);
+    this->RunFragment(context, target, calls, bind);
   }
 }
 
 void vtkSlicemapQuadKernel::RunCompute(
-  const Context& context, vtkSlicemap* target, const Bind& bind) const
+  const Context& context, vtkVoxelGL::Buffer& target, std::int64_t calls, const Bind& bind) const
 {
   auto defines = this->Defines;
   defines["COMPUTE"] = "1";
@@ -54,13 +61,12 @@ void vtkSlicemapQuadKernel::RunCompute(
   bind(program);
   GLint64 blockBytes = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
-  const std::int64_t quads = GetNumberOfQuads(target);
-  const std::int64_t quadsAtOnce = blockBytes / QuadBytes / QuadsPerBlock * QuadsPerBlock;
-  for (std::int64_t first = 0; first < quads; first += quadsAtOnce)
+  const std::int64_t callBytes = QuadBytes * this->GetQuadsPerCall();
+  const std::int64_t callsAtOnce = blockBytes / callBytes / CallsPerBlock * CallsPerBlock;
+  for (std::int64_t first = 0; first < calls; first += callsAtOnce)
   {
-    const std::int64_t count = std::min(quadsAtOnce, quads - first);
-    target->GetBuffer().BindRange(
-      GL_SHADER_STORAGE_BUFFER, 0, first * QuadBytes, count * QuadBytes);
+    const std::int64_t count = std::min(callsAtOnce, calls - first);
+    target.BindRange(GL_SHADER_STORAGE_BUFFER, 0, first * callBytes, count * callBytes);
     program.Set("FirstQuad", static_cast<unsigned int>(first));
     program.Set("NumberOfQuads", static_cast<unsigned int>(count));
     vtkVoxelDispatch(count);
@@ -69,12 +75,12 @@ void vtkSlicemapQuadKernel::RunCompute(
 }
 
 void vtkSlicemapQuadKernel::RunFragment(
-  const Context& context, vtkSlicemap* target, const Bind& bind) const
+  const Context& context, vtkVoxelGL::Buffer& target, std::int64_t calls, const Bind& bind) const
 {
   Program& program = vtkVoxelGetProgram(context, this->Name, this->Defines,
     { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } },
       { GL_FRAGMENT_SHADER, { vtkSlicemapLayoutGLSL, vtkSlicemapQuadKernelGLSL, this->Source } } });
-  const std::int64_t quads = GetNumberOfQuads(target);
+  const std::int64_t quads = calls * this->GetQuadsPerCall();
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   const auto line = static_cast<GLsizei>(std::min<std::int64_t>({ quads, largest, MaximumLine }));
@@ -101,7 +107,7 @@ void vtkSlicemapQuadKernel::RunFragment(
     program.Set("FirstQuad", static_cast<unsigned int>(first));
     glViewport(0, 0, width, height);
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    target->GetBuffer().Bind(GL_PIXEL_PACK_BUFFER);
+    target.Bind(GL_PIXEL_PACK_BUFFER);
     glReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
       reinterpret_cast<void*>(first * QuadBytes));
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

@@ -3,11 +3,16 @@
 //
 // A run fills NumberOfQuads quads, of four words each, from FirstQuad on. The compute stage writes
 // them to storage buffer 0, which begins with the first of them; the fragment stage to an RGBA32UI
-// render target, row after row of QuadsPerLine pixels.
+// render target, row after row of QuadsPerLine pixels. With PLANES, each call of
+// the kernel makes that many quads, which follow one another; the compute stage counts calls then.
 
 uniform uint FirstQuad;
 
+#ifdef PLANES
+void kernel(uint quad, out uvec4 planes[PLANES]);
+#else
 uvec4 kernel(uint quad);
+#endif
 
 uvec4 sourceQuad(usamplerBuffer source, uint quad)
 {
@@ -29,10 +34,20 @@ void main()
 {
   uint index =
     gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
-  if (index < NumberOfQuads)
+  if (index >= NumberOfQuads)
   {
-    Quads[index] = kernel(FirstQuad + index);
+    return;
   }
+#ifdef PLANES
+  uvec4 planes[PLANES];
+  kernel(FirstQuad + index, planes);
+  for (int p = 0; p < PLANES; ++p)
+  {
+    Quads[index * uint(PLANES) + uint(p)] = planes[p];
+  }
+#else
+  Quads[index] = kernel(FirstQuad + index);
+#endif
 }
 
 #else
@@ -44,7 +59,14 @@ out uvec4 Quad;
 void main()
 {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
-  Quad = kernel(FirstQuad + pixel.y * QuadsPerLine + pixel.x);
+  uint index = FirstQuad + pixel.y * QuadsPerLine + pixel.x;
+#ifdef PLANES
+  uvec4 planes[PLANES];
+  kernel(index / uint(PLANES), planes);
+  Quad = planes[index % uint(PLANES)];
+#else
+  Quad = kernel(index);
+#endif
 }
 
 #endif

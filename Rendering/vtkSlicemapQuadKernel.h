@@ -8,7 +8,9 @@
  *
  * A kernel is a GLSL function `uvec4 kernel(uint quad)`. It reads slicemaps on the same grid by
  * `uvec4 sourceQuad(usamplerBuffer source, uint quad)`. The target may be one of them. Written
- * once, it runs as a compute or as a fragment shader.
+ * once, it runs as a compute or as a fragment shader. With the define PLANES it is a function
+ * `void kernel(uint quad, out uvec4 planes[PLANES])`, whose results lie one after the other in the
+ * target, which is a buffer then.
  */
 
 #ifndef vtkSlicemapQuadKernel_h
@@ -16,6 +18,7 @@
 
 #include "vtkVoxelGLObjects.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -38,9 +41,16 @@ public:
   /// Fills all of `target`, which is allocated, in the current context. Throws std::runtime_error.
   void Run(const vtkVoxelGL::Context& context, vtkSlicemap* target, const Bind& bind) const;
 
+  /// Fills `target` by so many calls of the kernel; it may be larger.
+  void Run(const vtkVoxelGL::Context& context, vtkVoxelGL::Buffer& target, std::int64_t calls,
+    const Bind& bind) const;
+
 private:
-  void RunCompute(const vtkVoxelGL::Context&, vtkSlicemap* target, const Bind& bind) const;
-  void RunFragment(const vtkVoxelGL::Context&, vtkSlicemap* target, const Bind& bind) const;
+  void RunCompute(const vtkVoxelGL::Context&, vtkVoxelGL::Buffer& target, std::int64_t calls,
+    const Bind& bind) const;
+  void RunFragment(const vtkVoxelGL::Context&, vtkVoxelGL::Buffer& target, std::int64_t calls,
+    const Bind& bind) const;
+  std::int64_t GetQuadsPerCall() const;
 
   std::string Name;
   std::string Source;

@@ -3,24 +3,44 @@
 // many voxels on each axis:
 //
 //   Dilate/SIZE, Open/SIZE, DilateSphere/SIZE  vtkVoxelMorphology
-//   DilateVTK/SIZE                             vtkImageDilateErode3D, image to image, its own
-//   ellipsoid Union/512                                  vtkVoxelBoolean of two inputs
+//   DilateVTK/SIZE   vtkImageDilateErode3D, image to image, its own ellipsoid
+//   Union/512        vtkVoxelBoolean of two inputs
+//   Density/SIZE     vtkVoxelDensityNormals, bits on the GPU to arrays of density and normals for
+//                    every voxel; DensityCoarse/SIZE for every box, DensityCount/SIZE without
+//                    normals
+//   Chain/SIZE       two meshes to solids in the same grid, their difference, dilated by 3 voxels,
+//                    its density in boxes of SIZE^3 and normals for every voxel
+//   ChainVTK/8       the same with VTK's filters for images
 
 #include "VoxelBenchmarks.h"
 
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkImageDilateErode3D.h>
+#include <vtkImageGradient.h>
+#include <vtkImageLogic.h>
+#include <vtkImageNormalize.h>
+#include <vtkImageSeparableConvolution.h>
+#include <vtkImageStencilToImage.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataToImageStencil.h>
+#include <vtkSlicemap.h>
 #include <vtkSlicemapSolidVoxelizer.h>
+#include <vtkSphereSource.h>
 #include <vtkVoxelBoolean.h>
+#include <vtkVoxelDensityNormals.h>
 #include <vtkVoxelMorphology.h>
+
+#include <array>
 
 using namespace VoxelBenchmarks;
 
 namespace
 {
 constexpr int Resolution = 512;
+constexpr int DilationSize = 7;
+constexpr int Margin = 8;
 
 vtkSmartPointer<vtkSlicemapSolidVoxelizer> MakeSolid(const Mesh& mesh)
 {
@@ -86,6 +106,136 @@ void Union(benchmark::State& state, const Mesh& mesh)
   filter->AddInputConnection(other->GetOutputPort());
   Run(state, filter);
 }
+
+template <bool Downsample, int NormalMode>
+void Density(benchmark::State& state, const Mesh& mesh)
+{
+  const auto solid = MakeSolid(mesh);
+  solid->HostOutputOff();
+  const int size = static_cast<int>(state.range(0));
+  vtkNew<vtkVoxelDensityNormals> filter;
+  filter->SetInputConnection(solid->GetOutputPort());
+  filter->SetKernelSize(size, size, size);
+  filter->SetDownsample(Downsample);
+  filter->SetNormalMode(NormalMode);
+  filter->SetDensityType(NormalMode == vtkVoxelDensityNormals::NORMALS_OFF
+      ? vtkVoxelDensityNormals::DENSITY_COUNT
+      : vtkVoxelDensityNormals::DENSITY_FRACTION);
+  filter->Update();
+  for (auto _ : state)
+  {
+    filter->Modified();
+    filter->Update();
+  }
+}
+
+/// A sphere in the middle of the mesh, about half as large.
+vtkSmartPointer<vtkSphereSource> MakeTool(const Mesh& mesh)
+{
+  auto sphere = vtkSmartPointer<vtkSphereSource>::New();
+  sphere->SetCenter(mesh->GetCenter());
+  sphere->SetRadius(0.25 * mesh->GetLength());
+  sphere->SetThetaResolution(100);
+  sphere->SetPhiResolution(100);
+  sphere->Update();
+  return sphere;
+}
+
+void Chain(benchmark::State& state, const Mesh& mesh)
+{
+  const auto tool = MakeTool(mesh);
+  const auto solid = MakeSolid(mesh);
+  solid->HostOutputOff();
+  solid->SetPadding(Margin);
+  solid->Update();
+  vtkNew<vtkSlicemapSolidVoxelizer> other;
+  other->SetInputConnection(tool->GetOutputPort());
+  other->SetReferenceImage(solid->GetOutput());
+  other->HostOutputOff();
+  vtkNew<vtkVoxelBoolean> difference;
+  difference->SetOperationToDifference();
+  difference->SetInputConnection(solid->GetOutputPort());
+  difference->AddInputConnection(other->GetOutputPort());
+  difference->HostOutputOff();
+  vtkNew<vtkVoxelMorphology> dilation;
+  dilation->SetInputConnection(difference->GetOutputPort());
+  dilation->SetKernelSize(DilationSize, DilationSize, DilationSize);
+  dilation->HostOutputOff();
+  const int size = static_cast<int>(state.range(0));
+  vtkNew<vtkVoxelDensityNormals> density;
+  density->SetInputConnection(dilation->GetOutputPort());
+  density->SetKernelSize(size, size, size);
+  for (auto _ : state)
+  {
+    solid->Modified();
+    other->Modified();
+    density->Update();
+  }
+  const vtkIdType readBacks = vtkSlicemap::GetNumberOfReadBacks();
+  solid->Modified();
+  other->Modified();
+  density->Update();
+  state.counters["ReadBacks"] =
+    static_cast<double>(vtkSlicemap::GetNumberOfReadBacks() - readBacks);
+}
+
+vtkSmartPointer<vtkPolyDataToImageStencil> MakeStencil(vtkPolyData* mesh, vtkImageData* grid)
+{
+  auto stencil = vtkSmartPointer<vtkPolyDataToImageStencil>::New();
+  stencil->SetInputData(mesh);
+  stencil->SetInformationInput(grid);
+  return stencil;
+}
+
+void ChainVTK(benchmark::State& state, const Mesh& mesh)
+{
+  const auto tool = MakeTool(mesh);
+  const auto solid = MakeSolid(mesh);
+  solid->SetPadding(Margin);
+  solid->Update();
+  vtkNew<vtkImageData> grid;
+  grid->CopyStructure(solid->GetOutput());
+  const int size = static_cast<int>(state.range(0));
+  for (auto _ : state)
+  {
+    std::array<vtkSmartPointer<vtkImageStencilToImage>, 2> images;
+    const std::array<vtkPolyData*, 2> meshes{ mesh, tool->GetOutput() };
+    for (std::size_t i = 0; i < images.size(); ++i)
+    {
+      images[i] = vtkSmartPointer<vtkImageStencilToImage>::New();
+      images[i]->SetInputConnection(MakeStencil(meshes[i], grid)->GetOutputPort());
+      images[i]->SetOutputScalarTypeToUnsignedChar();
+      images[i]->SetInsideValue(i == 0 ? 1 : 0);
+      images[i]->SetOutsideValue(i == 0 ? 0 : 1);
+    }
+    vtkNew<vtkImageLogic> difference;
+    difference->SetOperationToAnd();
+    difference->SetOutputTrueValue(1);
+    difference->SetInputConnection(0, images[0]->GetOutputPort());
+    difference->SetInputConnection(1, images[1]->GetOutputPort());
+    vtkNew<vtkImageDilateErode3D> dilation;
+    dilation->SetInputConnection(difference->GetOutputPort());
+    dilation->SetDilateValue(1);
+    dilation->SetErodeValue(0);
+    dilation->SetKernelSize(DilationSize, DilationSize, DilationSize);
+    vtkNew<vtkFloatArray> box;
+    box->SetNumberOfValues(size + 1); // of odd length, so without a shift
+    box->Fill(1.0 / size);
+    box->SetValue(size, 0.0f);
+    vtkNew<vtkImageSeparableConvolution> density;
+    density->SetInputConnection(dilation->GetOutputPort());
+    density->SetXKernel(box);
+    density->SetYKernel(box);
+    density->SetZKernel(box);
+    vtkNew<vtkImageGradient> gradient;
+    gradient->SetInputConnection(density->GetOutputPort());
+    gradient->SetDimensionality(3);
+    gradient->HandleBoundariesOn();
+    vtkNew<vtkImageNormalize> normals;
+    normals->SetInputConnection(gradient->GetOutputPort());
+    normals->Update();
+  }
+}
 }
 
 int main(int argc, char* argv[])
@@ -98,6 +248,12 @@ int main(int argc, char* argv[])
   AddRows("DilateSphere", Morphology<Filter::OPERATION_DILATE, Filter::KERNEL_SPHERE>, mesh,
     { 3, 7, 15 }, 1);
   AddRows("DilateVTK", DilateVTK, mesh, { 3 }, 1);
+  using DensityNormals = vtkVoxelDensityNormals;
+  AddRows("Density", Density<false, DensityNormals::NORMALS_SYMMETRIC>, mesh, { 2, 4, 8, 16 }, 3);
+  AddRows("DensityCoarse", Density<true, DensityNormals::NORMALS_SYMMETRIC>, mesh, { 2, 4, 8 }, 3);
+  AddRows("DensityCount", Density<false, DensityNormals::NORMALS_OFF>, mesh, { 2, 4, 8 }, 3);
+  AddRows("Chain", Chain, mesh, { 2, 8 }, 3);
+  AddRows("ChainVTK", ChainVTK, mesh, { 8 }, 1);
   AddRows("Union", Union, mesh, { Resolution }, 5);
   return RunRows(argc, argv);
 }

@@ -13,8 +13,8 @@ from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonO
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
     vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
-    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer,
-    vtkVoxelMorphology)
+    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelDensityNormals, vtkVoxelFilter,
+    vtkVoxelizer, vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -79,7 +79,8 @@ def leaves(tree):
 class Smoke(unittest.TestCase):
     def test_instances(self):
         for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkSlicemap",
-                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext", "vtkVoxelMorphology"):
+                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext", "vtkVoxelDensityNormals",
+                     "vtkVoxelMorphology"):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
@@ -123,6 +124,24 @@ class Smoke(unittest.TestCase):
         values[4, 3:8, 5:8] = 1
         found = vtk_to_numpy(morphology.GetOutput().GetPointData().GetScalars())
         self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values))
+
+    def test_density(self):
+        values = np.zeros((8, 12, 16), np.uint8)
+        values[:, :, 5:] = 1
+        image = vtkImageData()
+        image.SetDimensions(16, 12, 8)
+        image.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
+        density = vtkVoxelDensityNormals()
+        density.SetInputData(image)
+        density.SetKernelSize(4, 2, 2)
+        density.DownsampleOn()
+        density.Update()
+        data = density.GetOutput().GetPointData()
+        found = vtk_to_numpy(data.GetArray("Density")).reshape(4, 6, 4)
+        self.assertTrue(np.array_equal(found[1, 2], [0.0, 0.75, 1.0, 1.0]))
+        normals = vtk_to_numpy(data.GetArray("Normals")).reshape(4, 6, 4, 3)
+        self.assertTrue(np.array_equal(normals[2, 3], [[-1, 0, 0], [-1, 0, 0], [-1, 0, 0], [0, 0, 0]]))
+        self.assertEqual(density.GetOutput().GetOrigin(), (1.5, 0.5, 0.5))
 
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()
