@@ -30,6 +30,10 @@ void ExpandRow(const std::uint32_t* words, int n, const ByteTable& table, unsign
   for (; x + WordBits <= n; x += WordBits, out += WordBits)
   {
     const std::uint32_t word = *words++;
+    if (word == 0)
+    {
+      continue;
+    }
     const std::array<std::uint64_t, 4> values{ table[word & 255], table[word >> 8 & 255],
       table[word >> 16 & 255], table[word >> 24] };
     std::memcpy(out, values.data(), WordBits);
@@ -117,7 +121,7 @@ vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
     bits->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
     return bits;
   }
-  return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(ArrayName, voxels);
+  return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(ArrayName, voxels, 1, vtkVoxelInitially::Zero);
 }
 
 void Expand(

@@ -28,8 +28,8 @@ constexpr char ArrayName[] = "Occupancy";
 vtkDataArray* GetScalars(vtkImageData* image);
 
 /**
- * Room for one value a voxel of type VTK_UNSIGNED_CHAR or VTK_BIT, not initialised, named
- * ArrayName. Null when there is no memory for it.
+ * Room for one value a voxel of type VTK_UNSIGNED_CHAR or VTK_BIT, for Expand to fill,
+ * named ArrayName. Null when there is no memory for it.
  */
 vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType);
 
@@ -40,7 +40,8 @@ using ByteTable = std::array<std::uint64_t, 256>;
 ByteTable MakeValueTable(int foregroundValue);
 
 /**
- * Bits to an array made by NewArray.
+ * Bits to an array as NewArray made it: where nothing is set, it stays untouched, and so do its
+ * pages.
  */
 void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, vtkDataArray* array);
