@@ -157,10 +157,13 @@ public:
   /**
    * For the passes of this module. Allocate gives an uninitialised buffer for `grid`, keeping the
    * present one where it fits, and returns false after one error when it can't; Read maps the words
-   * for reading while `consume` runs and counts as one read-back; Swap exchanges the bits.
+   * for reading while `consume` runs and counts as one read-back; Write maps them while `produce`
+   * writes all of them and counts as one upload; both return false after one error; Swap exchanges
+   * the bits.
    */
   bool Allocate(const vtkVoxelGrid& grid);
   bool Read(const std::function<void(const std::uint32_t* words)>& consume);
+  bool Write(const std::function<void(std::uint32_t* words)>& produce);
   void Swap(vtkSlicemap* other);
   const vtkVoxelGrid& GetGrid() const;
   vtkVoxelGL::Buffer& GetBuffer();

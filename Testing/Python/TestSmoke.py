@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonO
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
     vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
-    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer,
+    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer,
     vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
@@ -79,7 +79,8 @@ def leaves(tree):
 class Smoke(unittest.TestCase):
     def test_instances(self):
         for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkSlicemap",
-                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext", "vtkVoxelMorphology"):
+                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelConnectivity", "vtkVoxelContext",
+                     "vtkVoxelMorphology"):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
@@ -123,6 +124,24 @@ class Smoke(unittest.TestCase):
         values[4, 3:8, 5:8] = 1
         found = vtk_to_numpy(morphology.GetOutput().GetPointData().GetScalars())
         self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values))
+
+    def test_connectivity(self):
+        values = np.ones((9, 11, 13), np.uint8)
+        values[4, 5, 6] = 0
+        values[0, 1:4, 1:12] = 0
+        image = vtkImageData()
+        image.SetDimensions(13, 11, 9)
+        image.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
+        connectivity = vtkVoxelConnectivity()
+        connectivity.SetInputData(image)
+        connectivity.Update()
+        values[4, 5, 6] = 1
+        found = vtk_to_numpy(connectivity.GetOutput().GetPointData().GetScalars())
+        self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values))
+        self.assertEqual(connectivity.GetNumberOfComponents(), 1)
+        for neighbours in "6", "18", "26":
+            getattr(connectivity, "SetConnectivityTo" + neighbours)()
+            self.assertEqual(connectivity.GetConnectivity(), int(neighbours))
 
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()

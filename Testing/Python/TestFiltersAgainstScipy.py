@@ -1,8 +1,8 @@
-"""Proves vtkVoxelMorphology bit for bit against scipy.ndimage, and vtkVoxelBoolean against NumPy: random voxels
-on grids of awkward sizes and a solid bunny; every operation, kernel and border, boxes of odd and even sizes,
-iterations; and expressions, which Python evaluates for itself.
+"""Proves vtkVoxelMorphology and vtkVoxelConnectivity bit for bit against scipy.ndimage, and vtkVoxelBoolean
+against NumPy: random voxels on grids of awkward sizes and a solid bunny; every operation, kernel, border and
+connectivity, boxes of odd and even sizes, iterations; and expressions, which Python evaluates for itself.
 
-    TestMorphologyAgainstScipy.py -D DATA_DIRECTORY
+    TestFiltersAgainstScipy.py -D DATA_DIRECTORY
 
 Skipped where there is no scipy.
 """
@@ -15,7 +15,9 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOPLY import vtkPLYReader
-from vtkvoxelization import vtkSlicemapSolidVoxelizer, vtkVoxelBoolean, vtkVoxelMorphology
+from vtkvoxelization import (
+    vtkHybridSurfaceVoxelizer, vtkSlicemapSolidVoxelizer, vtkVoxelBoolean, vtkVoxelConnectivity,
+    vtkVoxelMorphology)
 
 try:
     from scipy import ndimage
@@ -105,10 +107,10 @@ class Set:
         return Set(self.voxels | other.voxels)
 
 
-def bunny(resolution):
+def bunny(resolution, voxelizer_class=vtkSlicemapSolidVoxelizer):
     reader = vtkPLYReader()
     reader.SetFileName(DATA + "/bunny_7k.ply")
-    voxelizer = vtkSlicemapSolidVoxelizer()
+    voxelizer = voxelizer_class()
     voxelizer.SetInputConnection(reader.GetOutputPort())
     voxelizer.SetResolution(resolution)
     voxelizer.Update()
@@ -194,6 +196,67 @@ class Morphology(unittest.TestCase):
             getattr(self.filter, "SetKernelTypeTo" + kernel)()
             with self.subTest(kernel=kernel):
                 self.check(voxels, operation, structure, "Neutral")
+
+
+# Rank of scipy's structure.
+CONNECTIVITIES = {6: 1, 18: 2, 26: 3}
+
+
+def largest(voxels, connectivity):
+    """Of several that are largest, scipy numbers the one with the first voxel first."""
+    labels, count = ndimage.label(voxels, ndimage.generate_binary_structure(3, CONNECTIVITIES[connectivity]))
+    if count == 0:
+        return voxels, 0
+    return labels == 1 + np.argmax(np.bincount(labels.ravel())[1:]), count
+
+
+def filled(voxels, connectivity):
+    """Unset voxels hold together by all 26 neighbours where set ones do by 6, otherwise by 6."""
+    structure = ndimage.generate_binary_structure(3, 3 if connectivity == 6 else 1)
+    result = ndimage.binary_fill_holes(voxels, structure)
+    return result, ndimage.label(result & ~voxels, structure)[1]
+
+
+class Connectivity(unittest.TestCase):
+    def check(self, voxels):
+        connectivity = vtkVoxelConnectivity()
+        connectivity.SetInputData(to_image(voxels))
+        for operation, function in ("FillHoles", filled), ("KeepLargest", largest):
+            for neighbours in CONNECTIVITIES:
+                with self.subTest(operation=operation, connectivity=neighbours):
+                    getattr(connectivity, "SetOperationTo" + operation)()
+                    connectivity.SetConnectivity(neighbours)
+                    connectivity.Update()
+                    result, count = function(voxels, neighbours)
+                    self.assertEqual((to_voxels(connectivity.GetOutput()) ^ result).sum(), 0)
+                    self.assertEqual(connectivity.GetNumberOfComponents(), count)
+
+    def test_random(self):
+        densities = 0, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 1
+        for seed, (size, density) in enumerate(itertools.product(SIZES, densities)):
+            with self.subTest(size=size, density=density, seed=seed):
+                self.check(random_voxels(size, seed, density))
+
+    def test_noisy_bunny(self):
+        voxels = to_voxels(bunny(100).GetOutput())
+        for seed, share in enumerate((0.001, 0.05, 0.2)):
+            with self.subTest(share=share, seed=seed):
+                self.check(voxels ^ random_voxels(voxels.shape[::-1], seed, share))
+
+    def test_surfaces(self):
+        """Surfaces are filled by the connectivity that goes with what they separate."""
+        for separability, connectivity in (6, 26), (26, 26), (26, 6):
+            with self.subTest(separability=separability, connectivity=connectivity):
+                surface = bunny(80, vtkHybridSurfaceVoxelizer)
+                surface.SetSeparability(separability)
+                surface.SetPadding(2)
+                fill = vtkVoxelConnectivity()
+                fill.SetInputConnection(surface.GetOutputPort())
+                fill.SetConnectivity(connectivity)
+                fill.Update()
+                voxels = to_voxels(surface.GetOutput())
+                self.assertEqual((to_voxels(fill.GetOutput()) ^ filled(voxels, connectivity)[0]).sum(), 0)
+                self.assertGreater(fill.GetNumberOfFilledVoxels(), 3 * voxels.sum())
 
 
 class Boolean(unittest.TestCase):
