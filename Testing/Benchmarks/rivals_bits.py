@@ -10,6 +10,8 @@ Steps, each from voxels in memory to its result in memory:
     density             float means of 7^3 voxels
     normals             density, and the gradients of it, of unit length but for SimpleITK
     chain               dilate 7 of the second solid, difference from the first, normals of that
+    fill holes          of the first solid with one voxel in a thousand turned over
+    keep largest        of the components of the same by faces
 Tools:
     Filters             bits on the GPU to an image, of a chain with one read-back at its end
     FilterBits          bits on the GPU to bits on the GPU
@@ -27,15 +29,17 @@ import scipy
 import vtkvoxelization
 from scipy import ndimage
 from timing import minimum
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkVersion
+from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkImagingGeneral import vtkImageGradient, vtkImageNormalize, vtkImageSeparableConvolution
 from vtkmodules.vtkImagingMath import vtkImageLogic
-from vtkmodules.vtkImagingMorphological import vtkImageDilateErode3D
+from vtkmodules.vtkImagingMorphological import vtkImageConnectivityFilter, vtkImageDilateErode3D
 from vtkmodules.vtkIOPLY import vtkPLYReader
-from vtkvoxelization import vtkSlicemapSolidVoxelizer, vtkVoxelBoolean, vtkVoxelMorphology
+from vtkvoxelization import (
+    vtkSlicemapSolidVoxelizer, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelMorphology)
 
 try:
     import SimpleITK
@@ -45,10 +49,11 @@ except ImportError:
 BOXES = (3, 7)
 DENSITY_BOX = 7
 SHIFT = 0.1  # of the second solid, in lengths of the first
+NOISE = 0.001
 
 
 class Inputs:
-    """The two solids, as filters whose output is up to date, images, and arrays."""
+    """The two solids, as filters whose output is up to date, images, and arrays; a noisy one."""
 
     def __init__(self, folder, size):
         self.reader = vtkPLYReader()
@@ -71,6 +76,12 @@ class Inputs:
         self.solids[1].Update()
         self.images = [solid.GetOutput() for solid in self.solids]
         self.arrays = [to_array(image) != 0 for image in self.images]
+        noise = np.random.default_rng(1).random(self.arrays[0].shape, np.float32) < NOISE
+        self.noisy_array = self.arrays[0] ^ noise
+        self.noisy_image = vtkImageData()
+        self.noisy_image.CopyStructure(self.images[0])
+        self.noisy_image.GetPointData().SetScalars(
+            numpy_to_vtk(self.noisy_array.view(np.uint8).ravel(), deep=True))
 
 
 def to_array(image):
@@ -105,6 +116,13 @@ def filters(inputs, host_output=True):
             result.SetNormalModeToOff()
         return result
 
+    def connected(operation, connectivity):
+        result = vtkVoxelConnectivity()
+        result.SetInputData(inputs.noisy_image)
+        result.SetOperation(operation)
+        result.SetConnectivity(connectivity)
+        return result
+
     def updated(*chain):
         for link in chain[:-1]:
             link.HostOutputOff()
@@ -124,6 +142,8 @@ def filters(inputs, host_output=True):
 
     steps = {f"dilate {size}": updated(dilated(a, size)) for size in BOXES}
     steps["difference"] = updated(difference(a, b))
+    steps["fill holes"] = updated(connected(vtkVoxelConnectivity.OPERATION_FILL_HOLES, 26))
+    steps["keep largest"] = updated(connected(vtkVoxelConnectivity.OPERATION_KEEP_LARGEST, 6))
     if host_output and hasattr(vtkvoxelization, "vtkVoxelDensityNormals"):
         steps["density"] = updated(density(a, False))
         steps["normals"] = updated(density(a, True))
@@ -182,7 +202,17 @@ def vtk_imaging(inputs):
         unit.Update()
         return unit.GetOutput()
 
-    return steps_of(*inputs.images, dilated, difference, density, normals)
+    def largest():
+        connectivity = vtkImageConnectivityFilter()
+        connectivity.SetInputData(inputs.noisy_image)
+        connectivity.SetScalarRange(1, 1)  # VTK 9.1 rounds its default range down to 0
+        connectivity.SetExtractionModeToLargestRegion()
+        connectivity.Update()
+        return connectivity.GetOutput()
+
+    steps = steps_of(*inputs.images, dilated, difference, density, normals)
+    steps["keep largest"] = largest
+    return steps
 
 
 def numpy_and_scipy(inputs):
@@ -199,7 +229,14 @@ def numpy_and_scipy(inputs):
         gradient /= length[..., np.newaxis]
         return gradient
 
-    return steps_of(*inputs.arrays, dilated, np.greater, density, normals)
+    def largest():
+        labels = ndimage.label(inputs.noisy_array)[0]
+        return labels == 1 + np.argmax(np.bincount(labels.ravel())[1:])
+
+    steps = steps_of(*inputs.arrays, dilated, np.greater, density, normals)
+    steps["fill holes"] = lambda: ndimage.binary_fill_holes(inputs.noisy_array)
+    steps["keep largest"] = largest
+    return steps
 
 
 def scipy_structure(inputs):
@@ -220,8 +257,16 @@ def simpleitk(inputs):
     def normals(image):
         return SimpleITK.Gradient(density(image))
 
-    images = [SimpleITK.GetImageFromArray(array.view(np.uint8)) for array in inputs.arrays]
-    return steps_of(*images, dilated, SimpleITK.Greater, density, normals)
+    def largest():
+        components = SimpleITK.RelabelComponent(SimpleITK.ConnectedComponent(noisy))
+        return SimpleITK.Equal(components, 1)
+
+    *images, noisy = (
+        SimpleITK.GetImageFromArray(array.view(np.uint8)) for array in inputs.arrays + [inputs.noisy_array])
+    steps = steps_of(*images, dilated, SimpleITK.Greater, density, normals)
+    steps["fill holes"] = lambda: SimpleITK.BinaryFillhole(noisy, False, 1)
+    steps["keep largest"] = largest
+    return steps
 
 
 def steps_of(a, b, dilated, difference, density, normals):
@@ -243,7 +288,7 @@ TOOLS = {
 }
 if SimpleITK:
     TOOLS["SimpleITK"] = (simpleitk, SimpleITK.GetArrayFromImage)
-STEPS_OF_BITS = ("dilate 3", "dilate 7", "difference")
+STEPS_OF_BITS = ("dilate 3", "dilate 7", "difference", "fill holes", "keep largest")
 
 
 def main():
