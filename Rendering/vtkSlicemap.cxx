@@ -223,6 +223,28 @@ bool vtkSlicemap::Read(const std::function<void(const std::uint32_t* words)>& co
   return true;
 }
 
+bool vtkSlicemap::Write(const std::function<void(std::uint32_t* words)>& produce)
+{
+  vtkVoxelContext::Scope scope(this->GetContext());
+  if (!scope || !this->Storage->Buffer)
+  {
+    vtkErrorMacro(
+      "There are no bits to write" << (scope ? "." : ": " + this->GetContext()->GetErrorMessage()));
+    return false;
+  }
+  const vtkVoxelGL::MappedBuffer mapped(this->Storage->Buffer, 0, this->Storage->Buffer.GetSize(),
+    GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+  if (!mapped.Get())
+  {
+    vtkErrorMacro(
+      "OpenGL could not map the bits of the grid with " << this->Storage->Grid.Describe() << ".");
+    return false;
+  }
+  ++Uploads;
+  produce(static_cast<std::uint32_t*>(mapped.Get()));
+  return true;
+}
+
 bool vtkSlicemap::Upload(vtkImageData* image)
 {
   vtkDataArray* scalars = image ? vtkSlicemapImage::GetScalars(image) : nullptr;
@@ -243,21 +265,8 @@ bool vtkSlicemap::Upload(vtkImageData* image)
       << " takes " << grid.GetNumberOfVoxels() << ".");
     return false;
   }
-  if (!this->Allocate(grid))
-  {
-    return false;
-  }
-  vtkVoxelContext::Scope scope(this->GetContext());
-  const vtkVoxelGL::MappedBuffer mapped(this->Storage->Buffer, 0, this->Storage->Buffer.GetSize(),
-    GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
-  if (!mapped.Get())
-  {
-    vtkErrorMacro("OpenGL could not map the bits of the grid with " << grid.Describe() << ".");
-    return false;
-  }
-  ++Uploads;
-  vtkSlicemapImage::Pack(scalars, grid, static_cast<std::uint32_t*>(mapped.Get()));
-  return true;
+  return this->Allocate(grid) &&
+    this->Write([&](std::uint32_t* words) { vtkSlicemapImage::Pack(scalars, grid, words); });
 }
 
 bool vtkSlicemap::Download(vtkImageData* image, int scalarType, int foregroundValue)

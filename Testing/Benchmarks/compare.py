@@ -1,4 +1,5 @@
-"""Prints as Markdown what the benchmarks and rivals.py measured: milliseconds, and how many times faster.
+"""Prints as Markdown what the benchmarks, rivals.py and rivals_bits.py measured: milliseconds, and how many
+times faster.
 
     compare.py RESULTS.json ...
 """
@@ -23,6 +24,13 @@ WAYS = (
     ("Triangle", "Triangle"), ("Fragment", "Fragment"), ("Hybrid", "Hybrid"),
     ("RasterTriangle", "Triangle, Raster"), ("RasterFragment", "Fragment, Raster"),
     ("RasterHybrid", "Hybrid, Raster"))
+
+VOXELS = (
+    ("Filters", "image"), ("FilterBits", "bits on the GPU"), ("VTKImaging", "VTK's imaging filters"),
+    ("NumPy", "NumPy and scipy"), ("Structure", "scipy.ndimage.binary_dilation"), ("SimpleITK", "SimpleITK"))
+VOXEL_RATIOS = tuple(
+    (slow, fast, f"{what} than {label}") for slow, label in VOXELS[2:]
+    for fast, what in (("Filters", "image"), ("FilterBits", "bits")))
 
 
 def load(files):
@@ -82,6 +90,7 @@ def main():
             factor = number((scan - clear - rest) / copy)
             print(f"\nParity scan of {size}^3 bits: {factor} times a copy of them.")
     tables(times, "SurfaceBits", "surface", SURFACES, SURFACE_RATIOS)
+    tables(times, "NumPy", "work on voxels", VOXELS, VOXEL_RATIOS)
     tables(times, "Hybrid", "thin surface by strategy", WAYS, ())
 
 

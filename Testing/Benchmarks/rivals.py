@@ -6,18 +6,10 @@ longest side. Prints JSON: {"PyVista/MESH/SIZE": milliseconds}, the minimum of f
 import json
 import pathlib
 import sys
-import time
 
 import pyvista
 
-
-def minimum(function, times=5):
-    best = float("inf")
-    for _ in range(times):
-        start = time.perf_counter()
-        function()
-        best = min(best, time.perf_counter() - start)
-    return 1e3 * best
+from timing import minimum
 
 
 def main():

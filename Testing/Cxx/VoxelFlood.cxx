@@ -71,12 +71,14 @@ void VisitRows(const Grid& grid, const Grid& larger, Visitor&& visit)
   }
 }
 
-/// Sets all open voxels to Reached that can be reached from the one at `start`.
-void Spread(unsigned char* states, std::size_t start, const std::vector<std::ptrdiff_t>& steps)
+/// Sets all open voxels to Reached that can be reached from the one at `start`, and counts them.
+std::size_t Spread(
+  unsigned char* states, std::size_t start, const std::vector<std::ptrdiff_t>& steps)
 {
   std::vector<std::size_t> front;
   std::vector<std::size_t> next{ start };
   states[start] = Reached;
+  std::size_t count = 1;
   while (!next.empty())
   {
     front.swap(next);
@@ -92,7 +94,34 @@ void Spread(unsigned char* states, std::size_t start, const std::vector<std::ptr
         }
       }
     }
+    count += next.size();
   }
+  return count;
+}
+
+/// Gives the voxels of a volume their states in the closed grid around it.
+void Mark(const Volume& volume, State set, State unset, const Grid& closed, unsigned char* states)
+{
+  const Grid& grid = volume.Grid;
+  VisitRows(grid, closed,
+    [&](std::size_t from, std::size_t to)
+    {
+      std::transform(&volume.Voxels[from], &volume.Voxels[from] + grid.Size(0), &states[to],
+        [&](unsigned char voxel) { return voxel != 0 ? set : unset; });
+    });
+}
+
+/// The voxels of a grid that are Reached in the closed grid around it.
+Volume GetReached(const Grid& grid, const Grid& closed, const unsigned char* states)
+{
+  Volume reached(grid);
+  VisitRows(grid, closed,
+    [&](std::size_t to, std::size_t from)
+    {
+      std::transform(&states[from], &states[from] + grid.Size(0), &reached.Voxels[to],
+        [](unsigned char state) { return state == Reached; });
+    });
+  return reached;
 }
 
 }
@@ -107,24 +136,36 @@ Volume FloodFromOutside(const Volume& barrier, int connectivity)
   std::vector<unsigned char> states(closed.NumberOfVoxels(), Closed);
   VisitRows(outside, closed,
     [&](std::size_t, std::size_t row) { std::fill_n(&states[row], outside.Size(0), Open); });
-  VisitRows(grid, closed,
-    [&](std::size_t from, std::size_t to)
-    {
-      std::transform(&barrier.Voxels[from], &barrier.Voxels[from] + grid.Size(0), &states[to],
-        [](unsigned char voxel) { return voxel != 0 ? Closed : Open; });
-    });
-
+  Mark(barrier, Closed, Open, closed, states.data());
   Spread(states.data(), closed.Offset({ outside.Extent[0], outside.Extent[2], outside.Extent[4] }),
     steps);
+  return GetReached(grid, closed, states.data());
+}
 
-  Volume reached(grid);
-  VisitRows(grid, closed,
-    [&](std::size_t to, std::size_t from)
+//------------------------------------------------------------------------------------------------
+Volume LargestFlood(const Volume& voxels, int connectivity)
+{
+  const Grid closed = Grown(voxels.Grid, 1);
+  const std::vector<std::ptrdiff_t> steps = NeighbourSteps(closed, connectivity);
+  std::vector<unsigned char> states(closed.NumberOfVoxels(), Closed);
+  Mark(voxels, Open, Closed, closed, states.data());
+  std::size_t most = 0;
+  std::size_t start = 0;
+  for (std::size_t offset = 0; offset < states.size(); ++offset)
+  {
+    const std::size_t count = states[offset] == Open ? Spread(states.data(), offset, steps) : 0;
+    if (count > most)
     {
-      std::transform(&states[from], &states[from] + grid.Size(0), &reached.Voxels[to],
-        [](unsigned char state) { return state == Reached; });
-    });
-  return reached;
+      most = count;
+      start = offset;
+    }
+  }
+  Mark(voxels, Open, Closed, closed, states.data());
+  if (most > 0)
+  {
+    Spread(states.data(), start, steps);
+  }
+  return GetReached(voxels.Grid, closed, states.data());
 }
 
 }

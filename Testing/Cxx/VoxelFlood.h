@@ -1,6 +1,7 @@
 /**
  * @file   VoxelFlood.h
- * @brief  What can be reached from outside past occupied voxels: whether a surface separates.
+ * @brief  What can be reached past voxels, from outside or from a voxel: whether a surface
+ * separates, and what holds together.
  */
 #ifndef VoxelFlood_h
 #define VoxelFlood_h
@@ -17,6 +18,12 @@ namespace VoxelReference
  * connectivity.
  */
 Volume FloodFromOutside(const Volume& barrier, int connectivity);
+
+/**
+ * The set voxels that a flood over set voxels reaches, from where it reaches most; of several such
+ * places, from the first voxel in the order of offsets. Empty when no voxel is set.
+ */
+Volume LargestFlood(const Volume& voxels, int connectivity);
 
 }
 

@@ -13,8 +13,8 @@ from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonO
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
     vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
-    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelDensityNormals, vtkVoxelFilter,
-    vtkVoxelizer, vtkVoxelMorphology)
+    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelContext, vtkVoxelDensityNormals,
+    vtkVoxelFilter, vtkVoxelizer, vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -78,15 +78,18 @@ def leaves(tree):
 
 class Smoke(unittest.TestCase):
     def test_instances(self):
-        for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkSlicemap",
-                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext", "vtkVoxelDensityNormals",
-                     "vtkVoxelMorphology"):
-            instance = getattr(vtkvoxelization, name)()
-            self.assertEqual(instance.GetClassName(), name)
-            self.assertIn(name, str(instance))
-        for abstract in vtkVoxelAlgorithm, vtkVoxelFilter, vtkVoxelizer:
-            with self.assertRaises(TypeError):
-                abstract()
+        abstract = vtkVoxelAlgorithm, vtkVoxelFilter, vtkVoxelizer
+        names = [name for name in dir(vtkvoxelization) if name.startswith("vtk")]
+        self.assertIn("vtkSlicemapSolidVoxelizer", names)
+        for name in names:
+            made = getattr(vtkvoxelization, name)
+            if made in abstract:
+                with self.assertRaises(TypeError):
+                    made()
+            else:
+                instance = made()
+                self.assertEqual(instance.GetClassName(), name)
+                self.assertIn(name, str(instance))
 
     def test_boolean(self):
         ball = vtkSlicemapSolidVoxelizer()
@@ -142,6 +145,23 @@ class Smoke(unittest.TestCase):
         normals = vtk_to_numpy(data.GetArray("Normals")).reshape(4, 6, 4, 3)
         self.assertTrue(np.array_equal(normals[2, 3], [[-1, 0, 0], [-1, 0, 0], [-1, 0, 0], [0, 0, 0]]))
         self.assertEqual(density.GetOutput().GetOrigin(), (1.5, 0.5, 0.5))
+    def test_connectivity(self):
+        values = np.ones((9, 11, 13), np.uint8)
+        values[4, 5, 6] = 0
+        values[0, 1:4, 1:12] = 0
+        image = vtkImageData()
+        image.SetDimensions(13, 11, 9)
+        image.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
+        connectivity = vtkVoxelConnectivity()
+        connectivity.SetInputData(image)
+        connectivity.Update()
+        values[4, 5, 6] = 1
+        found = vtk_to_numpy(connectivity.GetOutput().GetPointData().GetScalars())
+        self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values))
+        self.assertEqual(connectivity.GetNumberOfComponents(), 1)
+        for neighbours in "6", "18", "26":
+            getattr(connectivity, "SetConnectivityTo" + neighbours)()
+            self.assertEqual(connectivity.GetConnectivity(), int(neighbours))
 
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()
