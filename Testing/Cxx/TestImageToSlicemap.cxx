@@ -188,7 +188,8 @@ void TestTypes(VoxelTestChecks& checks)
     for (const auto& [name, grid] : AwkwardGrids())
     {
       const bool cells = ++seed % 2 == 0;
-      const int components = seed % 3 == 0 ? 3 : 1;
+      const int components = seed % 4 == 0 ? 3 : 1;
+      const int mode = Modes[seed % Modes.size()];
       const std::string what = name + ", type " + std::to_string(type) +
         (cells ? " of cells, " : " of points, ") + std::to_string(components) +
         " components, seed " + std::to_string(seed);
@@ -197,12 +198,9 @@ void TestTypes(VoxelTestChecks& checks)
         grid, RandomArray(type, grid->GetNumberOfPoints(), components, seed, scalars), cells);
       vtkNew<Filter> filter;
       filter->SetInputData(image);
-      for (const int mode : Modes)
-      {
-        SetRanges(filter, mode, ranges);
-        filter->Update();
-        CheckOutputs(checks, what, filter, grid, scalars);
-      }
+      SetRanges(filter, mode, ranges);
+      filter->Update();
+      CheckOutputs(checks, what, filter, grid, scalars);
       vtkImageData* last = filter->GetOutput(filter->GetNumberOfValues() - 1);
       checks.Check(what + ": geometry",
         vtkVoxelGrid::FromImage(last).IsSameAs(vtkVoxelGrid::FromImage(image)));
