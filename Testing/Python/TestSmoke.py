@@ -12,9 +12,9 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
-    vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
-    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer,
-    vtkVoxelMorphology)
+    vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkImageToSlicemap, vtkSlicemap,
+    vtkSlicemapSolidVoxelizer, vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter,
+    vtkVoxelizer, vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -78,8 +78,9 @@ def leaves(tree):
 
 class Smoke(unittest.TestCase):
     def test_instances(self):
-        for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkSlicemap",
-                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext", "vtkVoxelMorphology"):
+        for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkImageToSlicemap",
+                     "vtkSlicemap", "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext",
+                     "vtkVoxelMorphology"):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
@@ -123,6 +124,27 @@ class Smoke(unittest.TestCase):
         values[4, 3:8, 5:8] = 1
         found = vtk_to_numpy(morphology.GetOutput().GetPointData().GetScalars())
         self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values))
+
+    def test_level_sets(self):
+        values = np.random.default_rng(3).integers(-1000, 3000, (9, 11, 13), np.int16)
+        image = vtkImageData()
+        image.SetDimensions(13, 11, 9)
+        image.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
+        sets = vtkImageToSlicemap()
+        sets.SetInputData(image)
+        levels = 500, 1150.5, -3
+        for i, level in enumerate(levels):
+            sets.SetValue(i, level)
+            self.assertEqual(sets.GetValue(i), level)
+        sets.Update()
+        self.assertEqual(sets.GetNumberOfOutputPorts(), sets.GetNumberOfValues())
+        for i, level in enumerate(levels):
+            found = vtk_to_numpy(sets.GetOutput(i).GetPointData().GetScalars())
+            self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values >= level))
+        sets.ThresholdBetween(0, 100)
+        self.assertEqual(sets.GetRange(0), (0.0, 100.0))
+        sets.Update()
+        self.assertEqual(sets.GetNumberOfFilledVoxels(), ((values >= 0) & (values <= 100)).sum())
 
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()
@@ -181,6 +203,11 @@ class Smoke(unittest.TestCase):
             vtkHybridSurfaceVoxelizer(), {"Separability": 2, "Strategy": 4, "AttributeCombination": 4})
         self.assertEqual(vtkHybridSurfaceVoxelizer.STRATEGY_HYBRID, 3)
         self.assertEqual(vtkHybridSurfaceVoxelizer.COMBINE_FIRST, 3)
+        sets = vtkImageToSlicemap()
+        for mode in "IsoValues", "Ranges", "Labels":
+            getattr(sets, "SetModeTo" + mode)()
+            self.assertIn("Mode: " + mode, str(sets))
+        self.assertEqual(sets.GetMode(), vtkImageToSlicemap.MODE_LABELS)
 
     def test_voxels(self):
         voxelizer = vtkSlicemapSolidVoxelizer()
