@@ -15,12 +15,15 @@
 #include <limits>
 #include <type_traits>
 
+#if defined(__SSE2__) || defined(_M_X64)
+#include <emmintrin.h>
+#endif
+
 namespace
 {
 using Criterion = vtkSlicemapPacker::Criterion;
 
 constexpr int WordBits = 32;
-constexpr int ByteBits = 8;
 
 /// Values of type T from Lower to Upper; none when Lower is the larger one.
 template <typename T>
@@ -85,71 +88,107 @@ Interval<T> Within(const Criterion& criterion)
   }
 }
 
-/// Eight bytes in memory that are 0 or 1, the first one for the least significant bit.
-std::uint32_t GatherBits(const unsigned char* bytes)
+using ByteMasks = std::array<unsigned char, WordBits>;
+
+#if defined(__SSE2__) || defined(_M_X64)
+/// One bit of each mask, the first one for the least significant bit.
+std::uint32_t GatherBits(const ByteMasks& masks)
 {
+  const auto half = [&](int first)
+  {
+    const auto* bytes = reinterpret_cast<const __m128i*>(&masks[first]);
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_loadu_si128(bytes)));
+  };
+  return half(0) | half(WordBits / 2) << WordBits / 2;
+}
+#else
+/// One bit of each mask, the first one for the least significant bit.
+std::uint32_t GatherBits(const ByteMasks& masks)
+{
+  constexpr int byteBits = 8;
+  constexpr std::uint64_t oneOfEach = 0x0101010101010101u;
 #ifdef VTK_WORDS_BIGENDIAN
   constexpr std::uint64_t toTopByte = 0x8040201008040201u;
 #else
   constexpr std::uint64_t toTopByte = 0x0102040810204080u;
 #endif
-  std::uint64_t eight;
-  std::memcpy(&eight, bytes, sizeof(eight));
-  return static_cast<std::uint32_t>(eight * toTopByte >> 56);
-}
-
-/// Plain loops without branches, which compilers turn into vector instructions.
-template <typename T>
-std::uint32_t PackWord(const T* values, const Interval<T>& interval)
-{
-  const T lower = interval.Lower;
-  const T upper = interval.Upper;
-  std::array<unsigned char, WordBits> within;
-  for (int i = 0; i < WordBits; ++i)
-  {
-    within[i] = static_cast<unsigned char>((values[i] >= lower) & (values[i] <= upper));
-  }
   std::uint32_t word = 0;
-  for (int bit = 0; bit < WordBits; bit += ByteBits)
+  for (int bit = 0; bit < WordBits; bit += byteBits)
   {
-    word |= GatherBits(&within[bit]) << bit;
+    std::uint64_t eight;
+    std::memcpy(&eight, &masks[bit], sizeof(eight));
+    word |= static_cast<std::uint32_t>((eight & oneOfEach) * toTopByte >> 56) << bit;
   }
   return word;
 }
+#endif
 
-std::uint32_t LowestBits(int count)
+/// A plain loop without branches, which compilers turn into vector instructions.
+template <typename T>
+std::uint32_t PackWord(const T* values, T lower, T upper)
 {
-  return count < WordBits ? (1u << count) - 1 : ~0u;
+  ByteMasks within;
+  for (int i = 0; i < WordBits; ++i)
+  {
+    const bool isWithin = (values[i] >= lower) & (values[i] <= upper);
+    within[i] = static_cast<unsigned char>(-static_cast<int>(isWithin));
+  }
+  return GatherBits(within);
 }
 
-/// `load(tuple, count, room)` gives `count` values from that tuple on, at a place that has
-/// WordBits of them, which may be `room`.
+template <typename T>
+struct Test
+{
+  Interval<T> Within;
+  std::uint32_t Inversion;
+};
+
+/// The bits beyond the last value are zero.
+template <typename T>
+void PackBlock(const T* values, int count, const Test<T>& test, std::uint32_t* words)
+{
+  const auto [within, inversion] = test;
+  const int fullWords = count / WordBits;
+  for (int i = 0; i < fullWords; ++i)
+  {
+    words[i] = PackWord(values + i * WordBits, within.Lower, within.Upper) ^ inversion;
+  }
+  const int rest = count % WordBits;
+  if (rest)
+  {
+    std::array<T, WordBits> last{};
+    std::copy_n(values + fullWords * WordBits, rest, last.begin());
+    const std::uint32_t used = (1u << rest) - 1;
+    words[fullWords] = (PackWord(last.data(), within.Lower, within.Upper) ^ inversion) & used;
+  }
+}
+
+/// `load(tuple, count, room)` gives `count` values from that tuple on, at a place which may be
+/// `room`. All tests run on a block of them while it is in the cache.
 template <typename T, typename Loader>
 auto MakePacker(const Loader& load, int voxelsPerRow, std::int64_t wordsPerRow,
   const std::vector<Criterion>& criteria)
 {
-  std::vector<Interval<T>> intervals;
-  std::vector<std::uint32_t> inversions;
+  constexpr int blockVoxels = 1024;
+  std::vector<Test<T>> tests;
   for (const Criterion& criterion : criteria)
   {
-    intervals.push_back(Within<T>(criterion));
-    inversions.push_back(criterion.Inverted ? ~0u : 0u);
+    tests.push_back({ Within<T>(criterion), criterion.Inverted ? ~0u : 0u });
   }
   return [=](std::int64_t firstRow, std::int64_t rows, const std::vector<std::uint32_t*>& words)
   {
-    std::array<T, WordBits> room{};
+    std::array<T, blockVoxels> room;
     for (std::int64_t row = 0; row < rows; ++row)
     {
       const std::int64_t firstTuple = (firstRow + row) * voxelsPerRow;
       const std::int64_t firstWord = row * wordsPerRow;
-      for (int x = 0; x < voxelsPerRow; x += WordBits)
+      for (int x = 0; x < voxelsPerRow; x += blockVoxels)
       {
-        const int count = std::min(WordBits, voxelsPerRow - x);
+        const int count = std::min(blockVoxels, voxelsPerRow - x);
         const T* values = load(firstTuple + x, count, room.data());
-        for (std::size_t i = 0; i < intervals.size(); ++i)
+        for (std::size_t i = 0; i < tests.size(); ++i)
         {
-          const std::uint32_t within = PackWord(values, intervals[i]);
-          words[i][firstWord + x / WordBits] = (within ^ inversions[i]) & LowestBits(count);
+          PackBlock(values, count, tests[i], words[i] + firstWord + x / WordBits);
         }
       }
       const std::int64_t used = (voxelsPerRow + WordBits - 1) / WordBits;
@@ -167,7 +206,7 @@ auto LoadFromMemory(const T* memory, int stride)
   return [=](std::int64_t tuple, int count, T* room) -> const T*
   {
     const T* values = memory + tuple * stride;
-    if (stride == 1 && count == WordBits)
+    if (stride == 1)
     {
       return values;
     }

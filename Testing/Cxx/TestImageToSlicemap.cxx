@@ -252,6 +252,26 @@ void TestLayouts(VoxelTestChecks& checks)
   }
 }
 
+/// Longer than what is loaded at a time.
+void TestLongRows(VoxelTestChecks& checks)
+{
+  const auto grid = Image::New();
+  grid->SetExtent(-4, 2500, 0, 2, 1, 2);
+  for (const int type : { VTK_UNSIGNED_CHAR, VTK_FLOAT, VTK_BIT })
+  {
+    for (const int components : { 1, 2 })
+    {
+      Scalars scalars;
+      vtkNew<Filter> filter;
+      filter->SetInputData(MakeImage(
+        grid, RandomArray(type, grid->GetNumberOfPoints(), components, 6, scalars), false));
+      SetRanges(filter, Filter::MODE_RANGES, { { -2, 0.5 }, { 3, 50 } });
+      filter->Update();
+      CheckOutputs(checks, "long rows, type " + std::to_string(type), filter, grid, scalars);
+    }
+  }
+}
+
 /// Several slabs, whose ends are not those of slices.
 void TestSlabs(VoxelTestChecks& checks)
 {
@@ -404,9 +424,9 @@ void TestChain(VoxelTestChecks& checks)
   auto* scalars = static_cast<float*>(ball->GetScalarPointer());
   for (int i = 0; i < n * n * n; ++i)
   {
-    const double x = i % n - 24.5;
-    const double y = i / n % n - 24.5;
-    const double z = i / n / n - 24.5;
+    const double x = double(i % n) - 24.5;
+    const double y = double(i / n % n) - 24.5;
+    const double z = double(i / n / n) - 24.5;
     scalars[i] = static_cast<float>(20.0 - std::sqrt(x * x + y * y + z * z));
   }
   vtkNew<Filter> sets;
@@ -510,7 +530,7 @@ void TestErrors(VoxelTestChecks& checks)
 {
   const auto image = [](vtkAbstractArray* array)
   {
-    const auto made = Image::New();
+    auto made = Image::New();
     made->SetDimensions(3, 4, 5);
     if (array)
     {
@@ -577,6 +597,7 @@ int TestImageToSlicemap(int /*argc*/, char* /*argv*/[])
   VoxelTestChecks checks;
   TestTypes(checks);
   TestLayouts(checks);
+  TestLongRows(checks);
   TestSlabs(checks);
   TestOnePass(checks);
   TestLabels(checks);
