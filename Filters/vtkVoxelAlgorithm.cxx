@@ -45,6 +45,15 @@ struct vtkVoxelAlgorithm::Internals
   vtkIdType NumberOfFilledVoxels = -1;                 // -1: those of the first slicemap
   std::string RendererName;
 
+  /// Ports may have gone.
+  void ForgetBeyond(int numberOfPorts)
+  {
+    if (static_cast<int>(this->Slicemaps.size()) > numberOfPorts)
+    {
+      this->Slicemaps.resize(numberOfPorts);
+    }
+  }
+
   void ForgetResults()
   {
     this->Slicemaps.clear();
@@ -123,6 +132,7 @@ int vtkVoxelAlgorithm::RunInContext(
   const std::string& doing, const std::function<bool()>& prepare, const std::function<bool()>& work)
 {
   this->Common->NumberOfFilledVoxels = -1;
+  this->Common->ForgetBeyond(this->GetNumberOfOutputPorts());
   try
   {
     if (!prepare())

@@ -93,8 +93,13 @@ bool vtkVoxelConnectivity::Process(const std::vector<vtkSlicemap*>& inputs, vtkS
   const auto selection = fills ? components->SelectInner() : components->SelectLargest();
   this->NumberOfComponents =
     fills ? std::count(selection.begin(), selection.end(), 1) : components->GetCount();
-  if (!output->Allocate(grid) ||
-    !output->Write([&](std::uint32_t* words) { components->Write(selection, words); }))
+  const bool isWritten = vtkSlicemap::Write(grid, { output },
+    [&](std::int64_t firstRow, std::int64_t rows, const std::vector<std::uint32_t*>& words)
+    {
+      components->Write(selection, firstRow, rows, words[0]);
+      return true;
+    });
+  if (!isWritten)
   {
     return false;
   }

@@ -20,48 +20,6 @@
 
 namespace
 {
-/// The voxels of an image, and whether they are its cells.
-struct InputVoxels
-{
-  vtkVoxelGrid Grid;
-  bool AreCells = false;
-};
-
-/// Throws std::runtime_error when there are none.
-InputVoxels FindVoxels(vtkImageData* image)
-{
-  const auto grid = vtkVoxelGrid::FromImage(image);
-  if (grid.IsEmpty())
-  {
-    throw std::runtime_error("The input image is empty: " + grid.Describe() +
-      ". Update its source first, or give it dimensions.");
-  }
-  InputVoxels voxels;
-  vtkDataArray* scalars = vtkSlicemapImage::GetScalars(image);
-  if (scalars)
-  {
-    voxels.AreCells = scalars != image->GetPointData()->GetScalars();
-    voxels.Grid = voxels.AreCells ? grid.CellsToVoxels() : grid;
-    if (scalars->GetNumberOfTuples() != voxels.Grid.GetNumberOfVoxels())
-    {
-      throw std::runtime_error("The scalars of the input have " +
-        std::to_string(scalars->GetNumberOfTuples()) + " values, but its " + grid.Describe() +
-        " takes " + std::to_string(voxels.Grid.GetNumberOfVoxels()) + ".");
-    }
-  }
-  else if (vtkSlicemap* slicemap = vtkSlicemap::GetFromImage(image))
-  {
-    voxels.Grid = slicemap->GetGrid();
-    voxels.AreCells = voxels.Grid.Extent != grid.Extent;
-  }
-  else
-  {
-    throw std::runtime_error(
-      "The input image has no scalars. Give it active point or cell scalars.");
-  }
-  return voxels;
-}
-
 bool IsEmptyRequest(vtkInformation* outputInfo)
 {
   vtkVoxelGrid asked;
@@ -74,6 +32,13 @@ bool IsEmptyRequest(vtkInformation* outputInfo)
 }
 }
 
+/// The voxels of an image, and whether they are its cells.
+struct vtkVoxelFilter::InputVoxels
+{
+  vtkVoxelGrid Grid;
+  bool AreCells = false;
+};
+
 struct vtkVoxelFilter::Internals
 {
   /// The scalars of one input, as bits on the GPU.
@@ -85,9 +50,9 @@ struct vtkVoxelFilter::Internals
   };
   std::vector<Upload> Uploads; // by input
 
-  vtkSlicemap* UploadOnce(std::size_t input, vtkImageData* image, vtkVoxelContext* context)
+  vtkSlicemap* UploadOnce(
+    std::size_t input, vtkImageData* image, const vtkVoxelGrid& grid, vtkVoxelContext* context)
   {
-    const auto grid = FindVoxels(image).Grid;
     const vtkMTimeType time = vtkSlicemapImage::GetScalars(image)->GetMTime();
     Upload& upload = this->Uploads[input];
     const bool known = upload.Slicemap && upload.Slicemap->IsIn(context) &&
@@ -169,6 +134,46 @@ bool vtkVoxelFilter::Execute(
   return true;
 }
 
+bool vtkVoxelFilter::ExecuteOnImages(
+  const std::vector<vtkImageData*>&, const std::vector<vtkImageData*>& outputs)
+{
+  return this->Execute(this->GetInputSlicemaps(), outputs);
+}
+
+vtkDataArray* vtkVoxelFilter::FindScalars(vtkImageData* image, bool& ofCells)
+{
+  vtkDataArray* scalars = vtkSlicemapImage::GetScalars(image);
+  ofCells = scalars != image->GetPointData()->GetScalars();
+  return scalars;
+}
+
+vtkVoxelFilter::InputVoxels vtkVoxelFilter::FindVoxels(vtkImageData* image)
+{
+  const auto grid = vtkVoxelGrid::FromImage(image);
+  if (grid.IsEmpty())
+  {
+    throw std::runtime_error("The input image is empty: " + grid.Describe() +
+      ". Update its source first, or give it dimensions.");
+  }
+  bool areCells = false;
+  if (vtkDataArray* scalars = this->FindScalars(image, areCells))
+  {
+    const auto voxels = areCells ? grid.CellsToVoxels() : grid;
+    if (scalars->GetNumberOfTuples() != voxels.GetNumberOfVoxels())
+    {
+      throw std::runtime_error("The scalars of the input have " +
+        std::to_string(scalars->GetNumberOfTuples()) + " values, but its " + grid.Describe() +
+        " takes " + std::to_string(voxels.GetNumberOfVoxels()) + ".");
+    }
+    return { voxels, areCells };
+  }
+  if (vtkSlicemap* slicemap = vtkSlicemap::GetFromImage(image))
+  {
+    return { slicemap->GetGrid(), slicemap->GetGrid().Extent != grid.Extent };
+  }
+  throw std::runtime_error("The input image has no scalars. Give it active point or cell scalars.");
+}
+
 vtkVoxelGrid vtkVoxelFilter::GetOutputImage(const vtkVoxelGrid& inputImage, bool inputHasCellVoxels)
 {
   this->InputHasCellVoxels = inputHasCellVoxels;
@@ -199,7 +204,7 @@ int vtkVoxelFilter::RequestInformation(
     }
     try
     {
-      cells = FindVoxels(vtkImageData::SafeDownCast(this->GetInputDataObject(0, 0))).AreCells;
+      cells = this->FindVoxels(vtkImageData::SafeDownCast(this->GetInputDataObject(0, 0))).AreCells;
     }
     catch (const std::runtime_error&)
     {
@@ -260,7 +265,8 @@ std::vector<vtkSlicemap*> vtkVoxelFilter::GetInputSlicemaps()
     }
     else if (vtkSlicemapImage::GetScalars(images[i]))
     {
-      slicemaps.push_back(this->Kept->UploadOnce(i, images[i], this->GetContext()));
+      slicemaps.push_back(
+        this->Kept->UploadOnce(i, images[i], this->FindVoxels(images[i]).Grid, this->GetContext()));
     }
     else
     {
@@ -282,6 +288,7 @@ int vtkVoxelFilter::RequestData(
     EmptyOutput(outputImages.back());
   }
   const int askedPort = std::max(0, request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()));
+  std::vector<vtkImageData*> images;
   bool finished = false;
   const int result = this->RunInContext(
     "working on voxels",
@@ -291,10 +298,11 @@ int vtkVoxelFilter::RequestData(
       {
         return false;
       }
+      images = this->GetInputImages();
       std::vector<vtkVoxelGrid> grids;
-      for (vtkImageData* image : this->GetInputImages())
+      for (vtkImageData* image : images)
       {
-        const auto voxels = FindVoxels(image);
+        const auto voxels = this->FindVoxels(image);
         this->InputHasCellVoxels = grids.empty() ? voxels.AreCells : this->InputHasCellVoxels;
         grids.push_back(voxels.Grid);
       }
@@ -304,7 +312,7 @@ int vtkVoxelFilter::RequestData(
     },
     [&]
     {
-      finished = this->Execute(this->GetInputSlicemaps(), outputImages);
+      finished = this->ExecuteOnImages(images, outputImages);
       return finished;
     });
   if (!finished || !result)

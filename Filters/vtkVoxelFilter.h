@@ -34,6 +34,8 @@
 #include <memory> // for the implementation
 #include <vector> // for several inputs
 
+class vtkDataArray;
+
 class VTKVOXELIZATION_EXPORT vtkVoxelFilter : public vtkVoxelAlgorithm
 {
 public:
@@ -78,6 +80,20 @@ protected:
     const std::vector<vtkSlicemap*>& inputs, const std::vector<vtkImageData*>& outputs);
 
   /**
+   * The same for a filter that wants scalars instead of slicemaps: the images of all inputs. Here:
+   * Execute on their slicemaps.
+   */
+  virtual bool ExecuteOnImages(
+    const std::vector<vtkImageData*>& inputs, const std::vector<vtkImageData*>& outputs);
+
+  /**
+   * The array of an input that tells its voxels, and whether it is one of its cells. Here: the
+   * active scalars, or null, for which the slicemap of the input may stand in. May throw
+   * std::runtime_error.
+   */
+  virtual vtkDataArray* FindScalars(vtkImageData* image, bool& ofCells);
+
+  /**
    * The grid of the output for that of the first input; the same here.
    */
   virtual vtkVoxelGrid GetOutputGrid(const vtkVoxelGrid& input);
@@ -107,6 +123,8 @@ private:
   vtkVoxelFilter(const vtkVoxelFilter&) = delete;
   void operator=(const vtkVoxelFilter&) = delete;
 
+  struct InputVoxels;
+  InputVoxels FindVoxels(vtkImageData* image);
   vtkVoxelGrid GetOutputImage(const vtkVoxelGrid& inputImage, bool inputHasCellVoxels);
   std::vector<vtkImageData*> GetInputImages();
 

@@ -13,6 +13,7 @@
 #include "vtkSlicemapExpression.h"
 #include "vtkSlicemapImage.h"
 #include "vtkSlicemapKernel.h"
+#include "vtkSlicemapPacker.h"
 #include "vtkSmartPointer.h"
 #include "vtkVoxelContext.h"
 #include "vtkVoxelContextScope.h"
@@ -22,7 +23,9 @@
 #include "vtkSlicemapLayoutGLSL.h"
 #include "vtkSlicemapShiftGLSL.h"
 
+#include <algorithm>
 #include <atomic>
+#include <list>
 #include <stdexcept>
 
 namespace
@@ -30,6 +33,10 @@ namespace
 constexpr std::int64_t WordBits = 32;
 constexpr std::int64_t WordsPerQuad = 4;
 constexpr std::int64_t WordBytes = 4;
+
+/// Of words that are sent at a time: little beside the scalars they are made of, and enough to keep
+/// all threads busy.
+constexpr std::int64_t SlabBytes = std::int64_t(1) << 20;
 
 std::atomic<vtkIdType> ReadBacks{ 0 };
 std::atomic<vtkIdType> Uploads{ 0 };
@@ -223,28 +230,6 @@ bool vtkSlicemap::Read(const std::function<void(const std::uint32_t* words)>& co
   return true;
 }
 
-bool vtkSlicemap::Write(const std::function<void(std::uint32_t* words)>& produce)
-{
-  vtkVoxelContext::Scope scope(this->GetContext());
-  if (!scope || !this->Storage->Buffer)
-  {
-    vtkErrorMacro(
-      "There are no bits to write" << (scope ? "." : ": " + this->GetContext()->GetErrorMessage()));
-    return false;
-  }
-  const vtkVoxelGL::MappedBuffer mapped(this->Storage->Buffer, 0, this->Storage->Buffer.GetSize(),
-    GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
-  if (!mapped.Get())
-  {
-    vtkErrorMacro(
-      "OpenGL could not map the bits of the grid with " << this->Storage->Grid.Describe() << ".");
-    return false;
-  }
-  ++Uploads;
-  produce(static_cast<std::uint32_t*>(mapped.Get()));
-  return true;
-}
-
 bool vtkSlicemap::Upload(vtkImageData* image)
 {
   vtkDataArray* scalars = image ? vtkSlicemapImage::GetScalars(image) : nullptr;
@@ -265,8 +250,54 @@ bool vtkSlicemap::Upload(vtkImageData* image)
       << " takes " << grid.GetNumberOfVoxels() << ".");
     return false;
   }
-  return this->Allocate(grid) &&
-    this->Write([&](std::uint32_t* words) { vtkSlicemapImage::Pack(scalars, grid, words); });
+  const vtkSlicemapPacker packer(scalars, grid, { vtkSlicemapPacker::Criterion::NotZero() });
+  return Write(grid, { this },
+    [&](std::int64_t firstRow, std::int64_t rows, const std::vector<std::uint32_t*>& words)
+    {
+      packer.Pack(firstRow, rows, words);
+      return true;
+    });
+}
+
+bool vtkSlicemap::Write(
+  const vtkVoxelGrid& grid, const std::vector<vtkSlicemap*>& slicemaps, const RowWriter& write)
+{
+  for (vtkSlicemap* slicemap : slicemaps)
+  {
+    if (!slicemap->Allocate(grid))
+    {
+      return false;
+    }
+  }
+  vtkVoxelContext::Scope scope(slicemaps.front()->GetContext());
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t rows = std::int64_t(n.y) * n.z;
+  const std::int64_t rowBytes = GetWordsPerRow(grid) * WordBytes;
+  const std::int64_t rowsOfSlab = std::max<std::int64_t>(1, SlabBytes / rowBytes);
+  for (std::int64_t first = 0; first < rows; first += rowsOfSlab)
+  {
+    const std::int64_t count = std::min(rowsOfSlab, rows - first);
+    std::list<vtkVoxelGL::MappedBuffer> slabs;
+    std::vector<std::uint32_t*> words;
+    for (vtkSlicemap* slicemap : slicemaps)
+    {
+      slabs.emplace_back(slicemap->GetBuffer(), first * rowBytes, count * rowBytes,
+        GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_RANGE_BIT);
+      words.push_back(static_cast<std::uint32_t*>(slabs.back().Get()));
+      if (!words.back())
+      {
+        vtkErrorWithObjectMacro(
+          slicemap, "OpenGL could not map the bits of the grid with " << grid.Describe() << ".");
+        return false;
+      }
+    }
+    if (!write(first, count, words))
+    {
+      return false;
+    }
+  }
+  Uploads += static_cast<vtkIdType>(slicemaps.size());
+  return true;
 }
 
 bool vtkSlicemap::Download(vtkImageData* image, int scalarType, int foregroundValue)

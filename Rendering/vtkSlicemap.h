@@ -33,6 +33,7 @@
 #include <cstdint>    // for 64-bit sizes
 #include <functional> // for Read
 #include <memory>     // for the implementation
+#include <vector>     // for Write
 
 class vtkImageData;
 class vtkInformationIdTypeKey;
@@ -153,6 +154,19 @@ public:
   void ReleaseGraphicsResources();
 
 #ifndef __VTK_WRAP__
+  ///@{
+  /**
+   * Allocates all of `slicemaps`, which are in one context, for `grid`, and fills them from the
+   * host, some rows of voxels at a time: `write` sets all words of these rows, padding included,
+   * those of slicemap i from `words[i]` on; it returns false to stop. Counts as one upload of each.
+   * False when stopped, or after one error.
+   */
+  using RowWriter = std::function<bool(
+    std::int64_t firstRow, std::int64_t rows, const std::vector<std::uint32_t*>& words)>;
+  static bool Write(
+    const vtkVoxelGrid& grid, const std::vector<vtkSlicemap*>& slicemaps, const RowWriter& write);
+  ///@}
+
   ///@{
   /**
    * For the passes of this module. Allocate gives an uninitialised buffer for `grid`, keeping the

@@ -295,14 +295,15 @@ vtkSlicemapComponents::Selection vtkSlicemapComponents::SelectInner() const
   return selection;
 }
 
-void vtkSlicemapComponents::Write(const Selection& selection, std::uint32_t* words) const
+void vtkSlicemapComponents::Write(
+  const Selection& selection, std::int64_t firstRow, std::int64_t rows, std::uint32_t* words) const
 {
-  vtkSMPTools::For(0, this->Rows,
+  vtkSMPTools::For(firstRow, firstRow + rows,
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType row = begin; row < end; ++row)
       {
-        std::uint32_t* out = words + row * this->WordsPerRow;
+        std::uint32_t* out = words + (row - firstRow) * this->WordsPerRow;
         std::fill_n(out, this->WordsPerRow, 0u);
         for (Id id = this->FirstRuns[row]; id < this->FirstRuns[row + 1]; ++id)
         {

@@ -61,8 +61,10 @@ public:
   /// Those without a voxel at the border of the grid.
   Selection SelectInner() const;
 
-  /// Sets the voxels of the selected components in the words of a slicemap, and clears all others.
-  void Write(const Selection& selection, std::uint32_t* words) const;
+  /// Sets the voxels of the selected components in the words of some rows of a slicemap, from the
+  /// first of these on, and clears all others.
+  void Write(const Selection& selection, std::int64_t firstRow, std::int64_t rows,
+    std::uint32_t* words) const;
 
 private:
   struct Run

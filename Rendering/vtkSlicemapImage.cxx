@@ -8,6 +8,7 @@
 #include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkSlicemap.h"
+#include "vtkSlicemapPacker.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelLargeArray.h"
@@ -174,25 +175,7 @@ std::int64_t Count(const std::uint32_t* words, std::int64_t numberOfWords)
 void Pack(vtkDataArray* array, const vtkVoxelGrid& grid, std::uint32_t* words)
 {
   const glm::ivec3 n = grid.GetDimensions();
-  const std::int64_t rows = std::int64_t(n.y) * n.z;
-  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
-  auto* bytes = vtkUnsignedCharArray::SafeDownCast(array);
-  const bool plainBytes = bytes && bytes->GetNumberOfComponents() == 1;
-  vtkSMPTools::For(0, rows,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType row = begin; row < end; ++row)
-      {
-        std::uint32_t* out = words + row * wordsPerRow;
-        std::fill_n(out, wordsPerRow, 0u);
-        const std::int64_t first = std::int64_t(row) * n.x;
-        for (int x = 0; x < n.x; ++x)
-        {
-          const bool set = plainBytes ? *bytes->GetPointer(first + x) != 0
-                                      : array->GetComponent(first + x, 0) != 0.0;
-          out[x / WordBits] |= std::uint32_t(set) << x % WordBits;
-        }
-      }
-    });
+  const vtkSlicemapPacker packer(array, grid, { vtkSlicemapPacker::Criterion::NotZero() });
+  packer.Pack(0, std::int64_t(n.y) * n.z, { words });
 }
 }

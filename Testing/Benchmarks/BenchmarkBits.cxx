@@ -2,7 +2,8 @@
 // voxels along its longest side, bits on the GPU to bits on the GPU, by a box or a sphere of so
 // many voxels on each axis:
 //
-//   Dilate/SIZE, Open/SIZE, DilateSphere/SIZE  vtkVoxelMorphology
+//   Dilate/SIZE, Open/SIZE, DilateSphere/SIZE
+//                    vtkVoxelMorphology
 //   DilateVTK/SIZE   vtkImageDilateErode3D, image to image, its own ellipsoid
 //   Union/512        vtkVoxelBoolean of two inputs
 //   Density/SIZE     vtkVoxelDensityNormals, bits on the GPU to arrays of density and normals for
@@ -10,10 +11,18 @@
 //                    normals
 //   Chain/SIZE       two meshes to solids in the same grid, their difference, dilated by 3 voxels,
 //                    its density in boxes of SIZE^3 and normals for every voxel
-//   ChainVTK/8       the same with VTK's filters for images
+//   ChainVTK/8       the same with VTK's filters for images, dilated by an ellipsoid;
+//                    ChainVTKLines/8 by lines along x, y and z, which make a box
+//
+// and level sets of a volume of 512^3 shorts, in memory to bits on the GPU, of so many values:
+//
+//   LevelSets/COUNT  vtkImageToSlicemap
+//   Copy/512         std::memcpy of the scalars
+//   ThresholdVTK/1   vtkImageThreshold, to an image of unsigned char
 
 #include "VoxelBenchmarks.h"
 
+#include <vtkAlgorithmOutput.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkImageDilateErode3D.h>
@@ -22,6 +31,8 @@
 #include <vtkImageNormalize.h>
 #include <vtkImageSeparableConvolution.h>
 #include <vtkImageStencilToImage.h>
+#include <vtkImageThreshold.h>
+#include <vtkImageToSlicemap.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataToImageStencil.h>
@@ -33,6 +44,8 @@
 #include <vtkVoxelMorphology.h>
 
 #include <array>
+#include <cstring>
+#include <vector>
 
 using namespace VoxelBenchmarks;
 
@@ -129,6 +142,65 @@ void Density(benchmark::State& state, const Mesh& mesh)
   }
 }
 
+/// Smooth enough that neighbours are alike, as in a CT.
+vtkSmartPointer<vtkImageData> MakeVolume()
+{
+  auto volume = vtkSmartPointer<vtkImageData>::New();
+  volume->SetDimensions(Resolution, Resolution, Resolution);
+  volume->AllocateScalars(VTK_SHORT, 1);
+  auto* scalar = static_cast<short*>(volume->GetScalarPointer());
+  for (int z = 0; z < Resolution; ++z)
+  {
+    for (int y = 0; y < Resolution; ++y)
+    {
+      for (int x = 0; x < Resolution; ++x)
+      {
+        *scalar++ = static_cast<short>((x ^ y ^ z) + x + y);
+      }
+    }
+  }
+  return volume;
+}
+
+void LevelSets(benchmark::State& state)
+{
+  vtkNew<vtkImageToSlicemap> filter;
+  filter->SetInputData(MakeVolume());
+  for (int i = 0; i < state.range(0); ++i)
+  {
+    filter->SetValue(i, 200.5 + 200.0 * i);
+  }
+  Run(state, filter);
+}
+
+void Copy(benchmark::State& state)
+{
+  const auto volume = MakeVolume();
+  const auto bytes = static_cast<std::size_t>(volume->GetNumberOfPoints()) * sizeof(short);
+  std::vector<char> copy(bytes);
+  for (auto _ : state)
+  {
+    std::memcpy(copy.data(), volume->GetScalarPointer(), bytes);
+    benchmark::DoNotOptimize(copy.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void ThresholdVTK(benchmark::State& state)
+{
+  vtkNew<vtkImageThreshold> filter;
+  filter->SetInputData(MakeVolume());
+  filter->ThresholdByUpper(200.5);
+  filter->SetInValue(1);
+  filter->SetOutValue(0);
+  filter->SetOutputScalarTypeToUnsignedChar();
+  for (auto _ : state)
+  {
+    filter->Modified();
+    filter->Update();
+  }
+}
+
 /// A sphere in the middle of the mesh, about half as large.
 vtkSmartPointer<vtkSphereSource> MakeTool(const Mesh& mesh)
 {
@@ -187,6 +259,24 @@ vtkSmartPointer<vtkPolyDataToImageStencil> MakeStencil(vtkPolyData* mesh, vtkIma
   return stencil;
 }
 
+/// Kernels follow one another.
+vtkSmartPointer<vtkImageDilateErode3D> MakeDilation(
+  vtkAlgorithmOutput* input, const std::vector<std::array<int, 3>>& kernels)
+{
+  vtkSmartPointer<vtkImageDilateErode3D> last;
+  for (const auto& kernel : kernels)
+  {
+    auto dilation = vtkSmartPointer<vtkImageDilateErode3D>::New();
+    dilation->SetInputConnection(last ? last->GetOutputPort() : input);
+    dilation->SetDilateValue(1);
+    dilation->SetErodeValue(0);
+    dilation->SetKernelSize(kernel[0], kernel[1], kernel[2]);
+    last = dilation;
+  }
+  return last;
+}
+
+template <bool ByLines>
 void ChainVTK(benchmark::State& state, const Mesh& mesh)
 {
   const auto tool = MakeTool(mesh);
@@ -213,11 +303,10 @@ void ChainVTK(benchmark::State& state, const Mesh& mesh)
     difference->SetOutputTrueValue(1);
     difference->SetInputConnection(0, images[0]->GetOutputPort());
     difference->SetInputConnection(1, images[1]->GetOutputPort());
-    vtkNew<vtkImageDilateErode3D> dilation;
-    dilation->SetInputConnection(difference->GetOutputPort());
-    dilation->SetDilateValue(1);
-    dilation->SetErodeValue(0);
-    dilation->SetKernelSize(DilationSize, DilationSize, DilationSize);
+    constexpr int n = DilationSize;
+    const auto dilation = MakeDilation(difference->GetOutputPort(),
+      ByLines ? std::vector<std::array<int, 3>>{ { n, 1, 1 }, { 1, n, 1 }, { 1, 1, n } }
+              : std::vector<std::array<int, 3>>{ { n, n, n } });
     vtkNew<vtkFloatArray> box;
     box->SetNumberOfValues(size + 1); // of odd length, so without a shift
     box->Fill(1.0 / size);
@@ -253,7 +342,11 @@ int main(int argc, char* argv[])
   AddRows("DensityCoarse", Density<true, DensityNormals::NORMALS_SYMMETRIC>, mesh, { 2, 4, 8 }, 3);
   AddRows("DensityCount", Density<false, DensityNormals::NORMALS_OFF>, mesh, { 2, 4, 8 }, 3);
   AddRows("Chain", Chain, mesh, { 2, 8 }, 3);
-  AddRows("ChainVTK", ChainVTK, mesh, { 8 }, 1);
+  AddRows("ChainVTK", ChainVTK<false>, mesh, { 8 }, 1);
+  AddRows("ChainVTKLines", ChainVTK<true>, mesh, { 8 }, 1);
   AddRows("Union", Union, mesh, { Resolution }, 5);
+  AddRows("LevelSets", LevelSets, { 1, 4 }, 5);
+  AddRows("Copy", Copy, { Resolution }, 5);
+  AddRows("ThresholdVTK", ThresholdVTK, { 1 }, 1);
   return RunRows(argc, argv);
 }

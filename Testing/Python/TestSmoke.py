@@ -12,9 +12,9 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
-    vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
-    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelContext, vtkVoxelDensityNormals,
-    vtkVoxelFilter, vtkVoxelizer, vtkVoxelMorphology)
+    vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkImageToSlicemap, vtkSlicemap,
+    vtkSlicemapSolidVoxelizer, vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelContext,
+    vtkVoxelDensityNormals, vtkVoxelFilter, vtkVoxelizer, vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -162,6 +162,27 @@ class Smoke(unittest.TestCase):
         for neighbours in "6", "18", "26":
             getattr(connectivity, "SetConnectivityTo" + neighbours)()
             self.assertEqual(connectivity.GetConnectivity(), int(neighbours))
+
+    def test_level_sets(self):
+        values = np.random.default_rng(3).integers(-1000, 3000, (9, 11, 13), np.int16)
+        image = vtkImageData()
+        image.SetDimensions(13, 11, 9)
+        image.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
+        sets = vtkImageToSlicemap()
+        sets.SetInputData(image)
+        levels = 500, 1150.5, -3
+        for i, level in enumerate(levels):
+            sets.SetValue(i, level)
+            self.assertEqual(sets.GetValue(i), level)
+        sets.Update()
+        self.assertEqual(sets.GetNumberOfOutputPorts(), sets.GetNumberOfValues())
+        for i, level in enumerate(levels):
+            found = vtk_to_numpy(sets.GetOutput(i).GetPointData().GetScalars())
+            self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values >= level))
+        sets.ThresholdBetween(0, 100)
+        self.assertEqual(sets.GetRange(0), (0.0, 100.0))
+        sets.Update()
+        self.assertEqual(sets.GetNumberOfFilledVoxels(), ((values >= 0) & (values <= 100)).sum())
 
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()
