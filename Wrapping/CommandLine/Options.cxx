@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Options.h"
 
-#include "Failure.h"
-#include "FileNames.h"
+#include "Argument.h"
 #include "MeshReader.h"
+#include "OptionChecks.h"
 #include "ReferenceImage.h"
 #include "TextureImage.h"
 #include "VoxelOutput.h"
@@ -12,13 +12,8 @@
 #include "vtkHybridSurfaceVoxelizer.h"
 #include "vtkSlicemapSolidVoxelizer.h"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -30,154 +25,6 @@ using Method = Options::MethodType;
 
 /// The smallest positive double: a lower bound that leaves out zero.
 constexpr double Positive = std::numeric_limits<double>::denorm_min();
-
-[[noreturn]] void Refuse(const std::string& message)
-{
-  throw Failure(ExitCode::Usage, message + " (see vtkvoxelize --help)");
-}
-
-/**
- * One value of an option, with checks whose messages name the option.
- */
-class Argument
-{
-public:
-  Argument(std::string option, std::string text)
-    : Option(std::move(option))
-    , Text(std::move(text))
-  {
-  }
-
-  std::string AsFile() const
-  {
-    if (this->Text.empty())
-    {
-      Refuse(this->Option + " needs the name of a file");
-    }
-    return this->Text;
-  }
-
-  int AsInteger(int lowest, int highest = std::numeric_limits<int>::max()) const
-  {
-    const char* const end = this->Text.data() + this->Text.size();
-    int value = 0;
-    const auto [rest, error] = std::from_chars(this->Text.data(), end, value);
-    if (error == std::errc::invalid_argument || rest != end)
-    {
-      this->Refuse("is not a whole number");
-    }
-    const bool negative = this->Text.front() == '-';
-    if (error == std::errc::result_out_of_range)
-    {
-      this->Refuse(negative ? "is negative" : "is too large");
-    }
-    if (value < lowest)
-    {
-      this->Refuse((negative ? "is negative; the least is " : "is too small; the least is ") +
-        std::to_string(lowest));
-    }
-    if (value > highest)
-    {
-      this->Refuse("is too large; the most is " + std::to_string(highest));
-    }
-    return value;
-  }
-
-  double AsReal(double lowest = std::numeric_limits<double>::lowest()) const
-  {
-    char* rest = nullptr;
-    const double value = std::strtod(this->Text.c_str(), &rest);
-    if (this->Text.empty() || *rest != '\0' || !std::isfinite(value))
-    {
-      this->Refuse("is not a number");
-    }
-    if (value < lowest)
-    {
-      this->Refuse(value < 0.0 ? "is negative" : "is zero; it must be positive");
-    }
-    return value;
-  }
-
-  /// The values between commas.
-  std::vector<Argument> Split(std::size_t count) const
-  {
-    std::vector<Argument> parts;
-    std::istringstream text(this->Text);
-    for (std::string part; std::getline(text, part, ',');)
-    {
-      parts.emplace_back(this->Option, part);
-    }
-    if (parts.size() != count || this->Text.back() == ',')
-    {
-      this->Refuse("is not a list of " + std::to_string(count) + " numbers with commas between");
-    }
-    return parts;
-  }
-
-  std::vector<std::string> AsNames() const
-  {
-    std::vector<std::string> names;
-    std::istringstream text(this->Text + ",");
-    for (std::string name; std::getline(text, name, ',');)
-    {
-      if (name.empty())
-      {
-        this->Refuse("has an empty name; names stand between commas");
-      }
-      names.push_back(name);
-    }
-    return names;
-  }
-
-  int AsChoice(const std::vector<std::pair<std::string, int>>& choices) const
-  {
-    std::string names;
-    for (const auto& [name, value] : choices)
-    {
-      if (name == this->Text)
-      {
-        return value;
-      }
-      names += (names.empty() ? "" : ", ") + name;
-    }
-    this->Refuse("is none of " + names);
-  }
-
-  std::array<int, 3> AsDimensions() const
-  {
-    std::array<int, 3> dimensions{};
-    const auto parts = this->Split(dimensions.size());
-    std::transform(parts.begin(), parts.end(), dimensions.begin(),
-      [](const Argument& part) { return part.AsInteger(1); });
-    return dimensions;
-  }
-
-  std::array<double, 6> AsBounds() const
-  {
-    std::array<double, 6> bounds{};
-    const auto parts = this->Split(bounds.size());
-    std::transform(parts.begin(), parts.end(), bounds.begin(),
-      [](const Argument& part) { return part.AsReal(); });
-    for (const std::size_t axis : { 0, 1, 2 })
-    {
-      if (!(bounds[2 * axis] < bounds[2 * axis + 1]))
-      {
-        this->Refuse(std::string("is no box: its upper bound along ") + "xyz"[axis] +
-          " must be greater than its lower one");
-      }
-    }
-    return bounds;
-  }
-
-private:
-  [[noreturn]] void Refuse(const std::string& complaint) const
-  {
-    ::Refuse(this->Option + ": '" + this->Text + "' " + complaint);
-  }
-
-  std::string Option;
-  std::string Text;
-};
 
 struct Definition
 {
@@ -347,166 +194,23 @@ const Definition& FindDefinition(const std::string& name)
       }
     }
   }
-  Refuse("unknown option " + name);
-}
-
-using Names = std::set<std::string>;
-
-void RefuseTogether(const Names& given, const std::string& one,
-  const std::vector<std::string>& others, const std::string& why)
-{
-  for (const std::string& other : others)
-  {
-    if (given.count(one) && given.count(other))
-    {
-      std::string message = one;
-      message.append(" and ").append(other).append(" contradict each other: ").append(why);
-      Refuse(message);
-    }
-  }
-}
-
-/// A file and what it is to the command line.
-struct NamedFile
-{
-  std::string Role;
-  std::string Name;
-};
-
-void CheckFiles(const Options& options)
-{
-  const std::pair<const char*, std::optional<std::string>> files[] = {
-    { "INPUT", options.Input },
-    { "--reference", options.Reference },
-    { "--texture", options.Texture },
-    { "OUTPUT", options.Output },
-    { "--picture", options.Picture },
-  };
-  std::vector<NamedFile> before;
-  for (const auto& [role, name] : files)
-  {
-    const bool isWritten = role == std::string("OUTPUT") || role == std::string("--picture");
-    for (const NamedFile& other : before)
-    {
-      if (isWritten && name && FileNames::AreSame(*name, other.Name))
-      {
-        Refuse(other.Role + " and " + role + " are the same file, " + other.Name);
-      }
-    }
-    if (name)
-    {
-      before.push_back({ role, *name });
-    }
-  }
-}
-
-void CheckMethod(const Options& options, const Names& given)
-{
-  const bool isSolid = options.Method == Method::Solid;
-  for (const char* option : { "--mode", "--fill", "--axis" })
-  {
-    if (!isSolid && given.count(option))
-    {
-      Refuse(std::string(option) + " is for solids and does not go with --method surface");
-    }
-  }
-  for (const char* option : { "--separability", "--attributes", "--texture", "--combine" })
-  {
-    if (isSolid && given.count(option))
-    {
-      Refuse(std::string(option) + " needs --method surface");
-    }
-  }
-  if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
-  {
-    Refuse("--combine is for the values that --attributes and --texture ask for");
-  }
-}
-
-void RefuseWithOutput(
-  const Names& given, const char* option, const Options& options, const std::string& why)
-{
-  if (given.count(option))
-  {
-    Refuse(std::string(option) + " and OUTPUT " + options.Output +
-      " contradict each other: " + why + "; write a .vti file");
-  }
-}
-
-void CheckOutput(const Options& options, const Names& given)
-{
-  const auto kind = VoxelOutput::GetKind(options.Output);
-  if (kind != VoxelOutput::Kind::Image)
-  {
-    const std::string what =
-      kind == VoxelOutput::Kind::List ? "a list of voxels" : "an octree of voxels";
-    if (options.Method != Method::Surface)
-    {
-      Refuse("OUTPUT " + options.Output + " is " + what + ", which needs --method surface");
-    }
-    for (const char* option : { "--type", "--value", "--cells" })
-    {
-      RefuseWithOutput(given, option, options, what + " is no image");
-    }
-  }
-  if (options.ScalarType == VTK_BIT && !VoxelOutput::HasBits(options.Output))
-  {
-    RefuseWithOutput(given, "--type", options, "this format has no bits");
-  }
-  if (!VoxelOutput::HasCells(options.Output))
-  {
-    RefuseWithOutput(given, "--cells", options, "this format has no cells");
-  }
-  for (const char* option : { "--attributes", "--texture" })
-  {
-    if (!VoxelOutput::HasAttributes(options.Output))
-    {
-      RefuseWithOutput(given, option, options, "this format has no attributes");
-    }
-  }
-}
-
-void CheckTogether(const Options& options, const Names& given)
-{
-  const std::string oneSize = "each gives the size of the voxels";
-  RefuseTogether(given, "--resolution", { "--dimensions", "--voxel-size" }, oneSize);
-  RefuseTogether(given, "--dimensions", { "--voxel-size" }, oneSize);
-  RefuseTogether(given, "--reference",
-    { "--resolution", "--dimensions", "--voxel-size", "--bounds", "--padding" },
-    "the grid is that of the reference image");
-
-  if (options.Mode == Solid::MODE_BOUNDARY)
-  {
-    RefuseTogether(
-      given, "--mode", { "--fill", "--axis" }, "the mode boundary looks at the surface alone");
-  }
-  if (options.FillRule == Solid::FILL_RULE_VOTE)
-  {
-    RefuseTogether(given, "--fill", { "--axis" }, "the rule vote takes all three axes");
-  }
-  if (options.ScalarType == VTK_BIT && options.Value.value_or(1) != 1)
-  {
-    RefuseTogether(given, "--type", { "--value" }, "a bit that is set is 1");
-  }
-  if (options.UpAxis && !options.Picture)
-  {
-    Refuse("--up is for the picture that --picture asks for");
-  }
+  Argument::RefuseUsage("unknown option " + name);
 }
 
 void StoreFiles(Options& options, const std::vector<std::string>& files)
 {
   if (files.empty() || files[0].empty())
   {
-    Refuse("INPUT and OUTPUT are missing");
+    Argument::RefuseUsage("INPUT and OUTPUT are missing");
   }
   if (files.size() == 1 || files[1].empty())
   {
-    Refuse("OUTPUT is missing");
+    Argument::RefuseUsage("OUTPUT is missing");
   }
   if (files.size() > 2)
   {
-    Refuse("'" + files[2] + "' is one file too many; there are INPUT and OUTPUT only");
+    Argument::RefuseUsage(
+      "'" + files[2] + "' is one file too many; there are INPUT and OUTPUT only");
   }
   options.Input = files[0];
   options.Output = files[1];
@@ -555,7 +259,7 @@ Options Options::Parse(const std::vector<std::string>& words)
 
   Options options;
   std::vector<std::string> files;
-  Names given;
+  OptionChecks::Names given;
   bool onlyFiles = false;
   for (auto word = words.begin(); word != words.end(); ++word)
   {
@@ -581,7 +285,7 @@ Options Options::Parse(const std::vector<std::string>& words)
     {
       if (!definition.ValueName)
       {
-        Refuse(name + " takes no value");
+        Argument::RefuseUsage(name + " takes no value");
       }
       value = word->substr(equals + 1);
     }
@@ -589,13 +293,13 @@ Options Options::Parse(const std::vector<std::string>& words)
     {
       if (++word == words.end())
       {
-        Refuse(name + " needs a value, " + definition.ValueName);
+        Argument::RefuseUsage(name + " needs a value, " + definition.ValueName);
       }
       value = *word;
     }
     if (!given.insert(name).second)
     {
-      Refuse(name + " is given twice");
+      Argument::RefuseUsage(name + " is given twice");
     }
     definition.Store(options, Argument(name, value));
   }
@@ -604,10 +308,7 @@ Options Options::Parse(const std::vector<std::string>& words)
     return options;
   }
   StoreFiles(options, files);
-  CheckFiles(options);
-  CheckMethod(options, given);
-  CheckTogether(options, given);
-  CheckOutput(options, given);
+  OptionChecks::Check(options, given);
   return options;
 }
 
