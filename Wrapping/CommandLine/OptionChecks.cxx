@@ -42,29 +42,33 @@ struct NamedFile
 
 void CheckFiles(const Options& options)
 {
-  const std::pair<const char*, std::optional<std::string>> files[] = {
-    { "INPUT", options.Input },
-    { "--reference", options.Reference },
-    { "--texture", options.Texture },
-    { "OUTPUT", options.Output },
-    { "--picture", options.Picture },
-  };
-  std::vector<NamedFile> before;
-  for (const auto& [role, name] : files)
+  std::vector<NamedFile> files = { { "INPUT", options.Input } };
+  const auto add = [&](const std::string& role, const std::optional<std::string>& name)
   {
-    const bool isWritten = role == std::string("OUTPUT") || role == std::string("--picture");
-    for (const NamedFile& other : before)
+    if (name && !name->empty())
     {
-      if (isWritten && name && FileNames::AreSame(*name, other.Name))
+      files.push_back({ role, *name });
+    }
+  };
+  const auto addWritten = [&](const std::string& role, const std::optional<std::string>& name)
+  {
+    for (const NamedFile& other : files)
+    {
+      if (name && FileNames::AreSame(*name, other.Name))
       {
         Argument::RefuseUsage(other.Role + " and " + role + " are the same file, " + other.Name);
       }
     }
-    if (name)
-    {
-      before.push_back({ role, *name });
-    }
+    add(role, name);
+  };
+  add("--reference", options.Reference);
+  add("--texture", options.Texture);
+  for (const Options::Step& step : options.Steps)
+  {
+    add(step.Option, step.File);
   }
+  addWritten("OUTPUT", options.Output);
+  addWritten("--picture", options.Picture);
 }
 
 void CheckMethod(const Options& options, const Names& given)
@@ -162,6 +166,33 @@ void CheckTogether(const Options& options, const Names& given)
     Argument::RefuseUsage("--up is for the picture that --picture asks for");
   }
 }
+
+void CheckSteps(const Options& options, const Names& given)
+{
+  OptionChecks::CheckKernelIsUsed(options);
+  if (options.Steps.empty())
+  {
+    return;
+  }
+  const std::string& step = options.Steps.front().Option;
+  for (const char* option : { "--attributes", "--texture" })
+  {
+    RefuseTogether(given, step, { option }, "steps change which voxels are set, and no more");
+  }
+  if (VoxelOutput::GetKind(options.Output) != VoxelOutput::Kind::Image)
+  {
+    RefuseWithOutput(given, step.c_str(), options, "steps make an image");
+  }
+}
+}
+
+void OptionChecks::CheckKernelIsUsed(const Options& options)
+{
+  if (!options.KernelIsUsed)
+  {
+    Argument::RefuseUsage(
+      "--kernel is for the --dilate, --erode, --open and --close after it, but there are none");
+  }
 }
 
 void OptionChecks::Check(const Options& options, const Names& given)
@@ -170,4 +201,5 @@ void OptionChecks::Check(const Options& options, const Names& given)
   CheckMethod(options, given);
   CheckTogether(options, given);
   CheckOutput(options, given);
+  CheckSteps(options, given);
 }

@@ -3,14 +3,15 @@
 #include "Options.h"
 
 #include "Argument.h"
+#include "ImageReader.h"
 #include "MeshReader.h"
 #include "OptionChecks.h"
-#include "ReferenceImage.h"
 #include "TextureImage.h"
 #include "VoxelOutput.h"
 
 #include "vtkHybridSurfaceVoxelizer.h"
 #include "vtkSlicemapSolidVoxelizer.h"
+#include "vtkVoxelMorphology.h"
 
 #include <limits>
 #include <map>
@@ -22,9 +23,17 @@ namespace
 using Solid = vtkSlicemapSolidVoxelizer;
 using Surface = vtkHybridSurfaceVoxelizer;
 using Method = Options::MethodType;
+using Step = Options::Step;
+using Morphology = vtkVoxelMorphology;
 
 /// The smallest positive double: a lower bound that leaves out zero.
 constexpr double Positive = std::numeric_limits<double>::denorm_min();
+
+///@{
+/// Voxels to either side of vtkVoxelMorphology's largest sphere, and more than any grid has.
+constexpr int LongestSphereReach = 31;
+constexpr int LongestReach = std::numeric_limits<int>::max() / 16;
+///@}
 
 struct Definition
 {
@@ -32,6 +41,7 @@ struct Definition
   const char* ValueName; // null for a switch
   const char* Help;
   void (*Store)(Options&, const Argument&);
+  bool Repeats = false; // else to be given once
 };
 
 struct Group
@@ -39,6 +49,19 @@ struct Group
   const char* Title;
   std::vector<Definition> Definitions;
 };
+
+void AddJoin(Options& options, Step::Type what, const Argument& file)
+{
+  options.Steps.push_back({ what, file.GetOption(), file.AsFile() });
+}
+
+void AddMorphology(Options& options, Step::Type what, const Argument& reach)
+{
+  const bool isSphere = options.Kernel == Morphology::KERNEL_SPHERE;
+  options.Steps.push_back({ what, reach.GetOption(), {},
+    reach.AsInteger(1, isSphere ? LongestSphereReach : LongestReach), options.Kernel });
+  options.KernelIsUsed = true;
+}
 
 const std::vector<Group>& GetGroups()
 {
@@ -54,14 +77,18 @@ const std::vector<Group>& GetGroups()
         { "--voxel-size", "S", "edge length of a voxel, in the units of the mesh",
           [](Options& o, const Argument& a) { o.VoxelSize = a.AsReal(Positive); } },
         { "--bounds", "X0,X1,Y0,Y1,Z0,Z1",
-          "the box to voxelize, in the units of the mesh (default: that of the mesh)",
+          "the box to voxelize, in the units of the mesh (default: that of the mesh, and of\n"
+          "those that steps add)",
           [](Options& o, const Argument& a) { o.Bounds = a.AsBounds(); } },
-        { "--padding", "N", "N more voxels on every side of the box (default: 0)",
+        { "--padding", "N",
+          "N more voxels on every side of the box (default: as many as the steps need, so\n"
+          "that no border is in their way; 0 with --bounds). Beyond the grid there is\n"
+          "nothing that would change a voxel.",
           [](Options& o, const Argument& a)
-          { o.Padding = a.AsInteger(0, std::numeric_limits<int>::max() / 4); } },
+          { o.Padding = a.AsInteger(0, Options::LargestPadding); } },
         { "--reference", "IMAGE",
           "take extent, spacing, origin and direction matrix of this image:\n"
-          "@REFERENCES@",
+          "any of @REFERENCES@",
           [](Options& o, const Argument& a) { o.Reference = a.AsFile(); } },
       } },
     { "Voxels",
@@ -145,6 +172,50 @@ const std::vector<Group>& GetGroups()
               a.AsChoice({ { "average", Surface::COMBINE_AVERAGE }, { "min", Surface::COMBINE_MIN },
                 { "max", Surface::COMBINE_MAX }, { "first", Surface::COMBINE_FIRST } });
           } },
+      } },
+    { "Steps, which change the voxels one after the other, in the order given here",
+      {
+        { "--unite", "FILE",
+          "add the voxels of this file: a mesh, voxelized as INPUT is, or a mask on the very\n"
+          "same grid, not 0 where it is set, of the types\n"
+          "@MASKS@",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Unite, a); }, true },
+        { "--intersect", "FILE", "keep the voxels that are in this file, too",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Intersect, a); }, true },
+        { "--subtract", "FILE", "take the voxels of this file away",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Subtract, a); }, true },
+        { "--xor", "FILE", "keep what is in one of the two, and not in both",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Xor, a); }, true },
+        { "--complement", nullptr, "set the voxels of the grid that are not set, and no others",
+          [](Options& o, const Argument& a) {
+            o.Steps.push_back({ Step::Type::Complement, a.GetOption(), {} });
+          },
+          true },
+        { "--dilate", "N", "grow by N voxels to every side",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Dilate, a); }, true },
+        { "--erode", "N", "shrink by N voxels from every side",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Erode, a); }, true },
+        { "--open", "N", "erode, then dilate: what is thinner than 2 N + 1 voxels goes",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Open, a); }, true },
+        { "--close", "N", "dilate, then erode: gaps of up to 2 N voxels are filled",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Close, a); }, true },
+        { "--kernel", "KERNEL",
+          "what the steps after it grow and shrink by:\n"
+          "box        2 N + 1 voxels along each axis (default)\n"
+          "sphere     of that diameter, N being 31 at most\n"
+          "faces6     N times to the neighbours that share a face,\n"
+          "edges18    or also an edge,\n"
+          "corners26  or also a corner",
+          [](Options& o, const Argument& a)
+          {
+            OptionChecks::CheckKernelIsUsed(o);
+            o.Kernel = a.AsChoice({ { "box", Morphology::KERNEL_BOX },
+              { "faces6", Morphology::KERNEL_FACES6 }, { "edges18", Morphology::KERNEL_EDGES18 },
+              { "corners26", Morphology::KERNEL_CORNERS26 },
+              { "sphere", Morphology::KERNEL_SPHERE } });
+            o.KernelIsUsed = false;
+          },
+          true },
       } },
     { "Output",
       {
@@ -241,9 +312,9 @@ void PrintDefinition(std::ostream& out, const Definition& definition)
   }
   out << head;
   std::string indent;
-  std::istringstream lines(
-    Replaced(Replaced(definition.Help, "@REFERENCES@", "any of " + ReferenceImage::GetExtensions()),
-      "@TEXTURES@", TextureImage::GetExtensions()));
+  std::string help = Replaced(definition.Help, "any of @REFERENCES@", ImageReader::GetExtensions());
+  help = Replaced(help, "@MASKS@", ImageReader::GetImageExtensions());
+  std::istringstream lines(Replaced(help, "@TEXTURES@", TextureImage::GetExtensions()));
   for (std::string line; std::getline(lines, line); indent = "\n" + std::string(column, ' '))
   {
     out << indent << line;
@@ -297,7 +368,7 @@ Options Options::Parse(const std::vector<std::string>& words)
       }
       value = *word;
     }
-    if (!given.insert(name).second)
+    if (!given.insert(name).second && !definition.Repeats)
     {
       Argument::RefuseUsage(name + " is given twice");
     }
