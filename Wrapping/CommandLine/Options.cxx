@@ -78,12 +78,12 @@ const std::vector<Group>& GetGroups()
           [](Options& o, const Argument& a) { o.VoxelSize = a.AsReal(Positive); } },
         { "--bounds", "X0,X1,Y0,Y1,Z0,Z1",
           "the box to voxelize, in the units of the mesh (default: that of the mesh, and of\n"
-          "those that steps add)",
+          "the meshes that --unite and --xor add)",
           [](Options& o, const Argument& a) { o.Bounds = a.AsBounds(); } },
         { "--padding", "N",
-          "N more voxels on every side of the box (default: as many as the steps need, so\n"
-          "that no border is in their way; 0 with --bounds). Beyond the grid there is\n"
-          "nothing that would change a voxel.",
+          "N more voxels on every side of the box (default: 0, but with steps that grow or\n"
+          "shrink, and without --bounds, as many as keep all borders out of their way).\n"
+          "What lies beyond the grid changes no voxel: a box that fills it is not eroded.",
           [](Options& o, const Argument& a)
           { o.Padding = a.AsInteger(0, Options::LargestPadding); } },
         { "--reference", "IMAGE",
@@ -176,8 +176,8 @@ const std::vector<Group>& GetGroups()
     { "Steps, which change the voxels one after the other, in the order given here",
       {
         { "--unite", "FILE",
-          "add the voxels of this file: a mesh, voxelized as INPUT is, or a mask on the very\n"
-          "same grid, not 0 where it is set, of the types\n"
+          "add the voxels of this file: a mesh, voxelized as INPUT is, or a mask, an image\n"
+          "on the very same grid that is not 0 where voxels are set, one of\n"
           "@MASKS@",
           [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Unite, a); }, true },
         { "--intersect", "FILE", "keep the voxels that are in this file, too",
@@ -236,8 +236,9 @@ const std::vector<Group>& GetGroups()
             o.UpAxis = a.AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } });
           } },
         { "--info", nullptr,
-          "print triangles, grid, filled voxels and their volume, leaking columns of\n"
-          "solids, times and the OpenGL renderer, one a line, on the standard output",
+          "print triangles of all meshes, grid, filled voxels and their volume after the\n"
+          "steps, leaking columns of solids, times and the OpenGL renderer, one a line, on\n"
+          "the standard output",
           [](Options& o, const Argument&) { o.Info = true; } },
         { "--quiet", nullptr, "no progress bar and no warnings, errors only",
           [](Options& o, const Argument&) { o.Quiet = true; } },
@@ -388,7 +389,7 @@ std::string Options::GetHelp()
   std::ostringstream out;
   out << "Usage: vtkvoxelize [OPTIONS] INPUT OUTPUT\n\n"
          "Turns a mesh into voxels, solid by default, on the graphics processor or what stands in\n"
-         "for it.\n\n"
+         "for it; and joins them with others, or makes them grow and shrink, step by step.\n\n"
          "  INPUT             the mesh: "
       << MeshReader::GetExtensions()
       << "\n"
@@ -414,10 +415,15 @@ std::string Options::GetHelp()
        "  vtkvoxelize --reference ct.nrrd --value 3 liver.vtp liver.mha\n"
        "  vtkvoxelize --method surface --attributes RGB --resolution 1024 scan.ply scan.vtp\n"
        "  vtkvoxelize --method surface --texture house.jpg house.obj house.vti\n"
+       "  vtkvoxelize part.stl rest.vti --subtract drill.stl --kernel sphere --open 2\n"
+       "  vtkvoxelize --reference mask.nii.gz liver.stl shell.mha --dilate 3 --subtract "
+       "mask.nii.gz\n"
        "\nExit codes:\n"
        "  0  all is well\n"
        "  1  the command line makes no sense\n"
-       "  2  INPUT, the reference image or the texture can't be read, or INPUT is no mesh\n"
+       "  2  INPUT, the reference image, the texture or the file of a step can't be read, INPUT "
+       "is\n"
+       "     no mesh, or a mask is on another grid\n"
        "  3  voxelization failed: no OpenGL, a grid too large for the memory, an attribute or\n"
        "     texture coordinates that the mesh has not\n"
        "  4  OUTPUT or the picture can't be written\n"
