@@ -26,10 +26,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -144,29 +146,84 @@ void OrientNifti(vtkAlgorithm* algorithm, const std::string&, vtkImageData* imag
   SetColumns(image, columns);
 }
 
-/// VTK's reader takes any text for a header.
+/// VTK's reader takes any text for a header, and any number of axes.
 void CheckMetaImage(const std::string& file)
 {
-  if (ReadNumbers(file, "NDims", "ElementDataFile").empty())
+  constexpr double mostAxes = 4;
+  const auto axes = ReadNumbers(file, "NDims", "ElementDataFile");
+  if (axes.empty() || !(axes[0] >= 2 && axes[0] <= mostAxes))
   {
-    InputFile::Refuse(file, "it has no header of a MetaImage");
+    InputFile::Refuse(file, "it has no header of a MetaImage of 2 to 4 axes");
   }
 }
 
-/// VTK's reader waits for the end of the last line for ever, and has sizes of its own.
+/// The field that a line of a header of NRRD gives; a key of the user's own is "="; empty for
+/// anything else.
+std::string GetNrrdField(const std::string& line)
+{
+  const bool isText = std::none_of(line.begin(), line.end(),
+    [](unsigned char c) { return std::iscntrl(c) && c != '\t' && c != '\r'; });
+  const auto end = line.find(':');
+  if (!isText || end == std::string::npos)
+  {
+    return {};
+  }
+  return line[end + 1] == '=' ? "=" : line.substr(0, end);
+}
+
+/// VTK's reader waits for ever for the end of a header that has no end, or fields unknown to it.
 void CheckNrrd(const std::string& file)
 {
+  const std::set<std::string> known = { "=", "dimension", "type", "block size", "blocksize",
+    "encoding", "endian", "content", "old min", "oldmin", "old max", "oldmax", "min", "max",
+    "data file", "datafile", "line skip", "lineskip", "byte skip", "byteskip", "number",
+    "sample units", "sampleunits", "sizes", "spacings", "thicknesses", "axis mins", "axismins",
+    "axis maxs", "axismaxs", "centers", "centerings", "labels", "units", "kinds", "space",
+    "space dimension", "space units", "space origin", "space directions", "measurement frame" };
   std::ifstream header(file, std::ios::binary);
-  for (std::string line; std::getline(header, line) && line != "" && line != "\r";)
+  std::string line;
+  std::getline(header, line);
+  if (line.rfind("NRRD000", 0) != 0)
   {
-    if (header.eof())
+    InputFile::Refuse(file, "it has no header of an NRRD file");
+  }
+  while (!header.eof() && std::getline(header, line) && !line.empty() && line != "\r")
+  {
+    if (line.front() != '#' && known.count(GetNrrdField(line)) == 0)
     {
-      InputFile::Refuse(file, "it is truncated: its header has no end");
+      InputFile::Refuse(file, "its header has a line that is no field of an NRRD file");
     }
   }
-  if (ReadNumbers(file, "sizes", "").empty())
+  if (header.eof() && !line.empty())
   {
-    InputFile::Refuse(file, "it has no header of an NRRD file with sizes");
+    InputFile::Refuse(file, "it is truncated: its header has no end");
+  }
+  const auto sizes = ReadNumbers(file, "sizes", "");
+  const auto dimension = ReadNumbers(file, "dimension", "");
+  if (sizes.empty() || dimension.empty() || dimension[0] != static_cast<double>(sizes.size()) ||
+    !std::all_of(sizes.begin(), sizes.end(), [](double size) { return size >= 1; }))
+  {
+    InputFile::Refuse(file, "its header has no sizes for all of its dimensions");
+  }
+}
+
+/// VTK's reader trusts numbers of a header that is none.
+void CheckNifti(const std::string& file)
+{
+  constexpr std::streamoff magicOfFirst = 344;
+  constexpr std::streamoff magicOfSecond = 4;
+  std::ifstream stream(file, std::ios::binary);
+  const auto has = [&](std::streamoff offset, const char* magic)
+  {
+    std::array<char, 3> found{};
+    stream.clear();
+    stream.seekg(offset);
+    stream.read(found.data(), found.size());
+    return std::equal(found.begin(), found.end(), magic);
+  };
+  if (!has(magicOfFirst, "n+1") && !has(magicOfSecond, "n+2"))
+  {
+    InputFile::Refuse(file, "it has no header of a NIfTI file");
   }
 }
 
@@ -189,7 +246,7 @@ constexpr Format Formats[] = {
   { ".mhd", MakeReader<vtkMetaImageReader>, CheckMetaImage, OrientMetaImage, true },
   { ".nrrd", MakeReader<vtkNrrdReader>, CheckNrrd, OrientNrrd },
   { ".nhdr", MakeReader<vtkNrrdReader>, CheckNrrd, OrientNrrd, true },
-  { ".nii", MakeReader<vtkNIFTIImageReader>, nullptr, OrientNifti },
+  { ".nii", MakeReader<vtkNIFTIImageReader>, CheckNifti, OrientNifti },
   { ".nii.gz", MakeReader<vtkNIFTIImageReader>, nullptr, OrientNifti },
   { ".binvox", MakeReader<vtkBinvoxReader>, nullptr, nullptr },
   { LegacyExtension, MakeReader<vtkStructuredPointsReader>, nullptr, nullptr },
