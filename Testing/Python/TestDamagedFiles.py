@@ -7,6 +7,7 @@ The seed of a failure is in its name, the damaged file is kept.
     TestDamagedFiles.py --program vtkvoxelize -D DATA_DIRECTORY [-T SCRATCH_DIRECTORY]
 """
 
+import math
 import os
 import random
 import re
@@ -16,9 +17,9 @@ import zlib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
+from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkNIFTIImageWriter, vtkPNGReader
 from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataWriter
 
 import TestProgram
 from TestProgram import INPUT, VOXELIZATION, box, polydata
@@ -163,6 +164,27 @@ class TestDamagedFiles(TestProgram.ProgramTest):
         writer.SetFileName(str(self.folder / "good.jpg"))
         writer.Write()
         self.survive("checks.jpg", (self.folder / "good.jpg").read_bytes(), 40, words)
+
+    def test_masks(self):
+        mesh = self.mesh().name
+        for name in "mask.vti", "mask.mha", "mask.binvox":
+            self.succeed("--resolution", 4, mesh, name)
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName(str(self.folder / "mask.vti"))
+        reader.Update()
+        image = reader.GetOutput()
+        written_by_vtk = vtkNIFTIImageWriter()
+        for name in "mask.nii", "mask.nii.gz":
+            written_by_vtk.SetFileName(str(self.folder / name))
+            written_by_vtk.SetInputData(image)
+            written_by_vtk.Write()
+        sizes, spacing, origin = image.GetDimensions(), image.GetSpacing(), image.GetOrigin()
+        self.file("mask.nrrd", (
+            "NRRD0004\ntype: uchar\ndimension: 3\nspace dimension: 3\nsizes: %d %d %d\n" % sizes
+            + "space directions: (%r,0,0) (0,%r,0) (0,0,%r)\nencoding: raw\n" % spacing
+            + "space origin: (%r,%r,%r)\n\n" % origin).encode() + bytes(math.prod(sizes)))
+        for name in "mask.vti", "mask.mha", "mask.binvox", "mask.nii", "mask.nii.gz", "mask.nrrd":
+            self.survive(name, (self.folder / name).read_bytes(), 40, [mesh, "--unite", "{}"])
 
 
 if __name__ == "__main__":

@@ -678,6 +678,11 @@ class TestGrids(ProgramTest):
             with self.subTest(name):
                 self.file(name, b"this is no image\n" * 20)
                 self.complain(INPUT, "--reference", name, mesh, "out.vti", naming=[name])
+        for header, reason in (b"NRRD0004\ntype: uchar\nsizes: 4 4 4", "no end"), (b"NRRD0004\n\n", "sizes"), (
+                b"NRRD0004\ntype uchar\n\n", "field"):
+            with self.subTest(header):
+                self.file("head.nrrd", header)
+                self.complain(INPUT, "--reference", "head.nrrd", mesh, "out.vti", naming=["head.nrrd", reason])
 
 
 class TestVoxels(ProgramTest):

@@ -104,19 +104,27 @@ constexpr Format Formats[] = {
   { ".glb", MakeReader<GltfReader>, GltfFileCheck::Check, TextureCoordinates::Flip },
 };
 
-const Format& FindFormat(const std::string& file)
+/// Null where the extension is not known.
+const Format* FindFormat(const std::string& file)
 {
   const std::string extension = FileNames::GetExtension(file);
   const auto* const found = std::find_if(std::begin(Formats), std::end(Formats),
     [&](const Format& format) { return extension == format.Extension; });
-  if (found == std::end(Formats))
+  return found == std::end(Formats) ? nullptr : found;
+}
+
+const Format& GetFormat(const std::string& file)
+{
+  const Format* const format = FindFormat(file);
+  if (!format)
   {
+    const std::string extension = FileNames::GetExtension(file);
     InputFile::Refuse(file,
       (extension.empty() ? "its name has no extension"
                          : "meshes of type " + extension + " are not known") +
         "; known are " + MeshReader::GetExtensions());
   }
-  return *found;
+  return *format;
 }
 
 /**
@@ -272,7 +280,7 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   try
   {
     const MemoryLimit limit(file);
-    const Format& format = FindFormat(file);
+    const Format& format = GetFormat(file);
     auto data = ReadAs(format, file, messages, terminal);
     CheckMesh(file, data);
     if (format.Amend)
@@ -296,6 +304,21 @@ vtkSmartPointer<vtkDataObject> MeshReader::Read(
   {
     InputFile::Refuse(file, std::string("it is damaged: ") + error.what());
   }
+}
+
+vtkBoundingBox MeshReader::GetBounds(vtkDataObject* mesh)
+{
+  vtkBoundingBox box;
+  for (vtkPolyData* part : GetParts(mesh))
+  {
+    box.AddBounds(part->GetBounds());
+  }
+  return box;
+}
+
+bool MeshReader::IsMesh(const std::string& file)
+{
+  return FindFormat(file);
 }
 
 std::string MeshReader::GetExtensions()

@@ -8,6 +8,7 @@
 #ifndef MeshReader_h
 #define MeshReader_h
 
+#include "vtkBoundingBox.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
@@ -25,6 +26,12 @@ namespace MeshReader
  */
 vtkSmartPointer<vtkDataObject> Read(
   const std::string& file, Messages& messages, Terminal& terminal);
+
+/// The box of all points of a mesh that was read.
+vtkBoundingBox GetBounds(vtkDataObject* mesh);
+
+/// Whether a file of this name is taken for a mesh.
+bool IsMesh(const std::string& file);
 
 /// What can be read, for messages: ".stl, .ply ...".
 std::string GetExtensions();

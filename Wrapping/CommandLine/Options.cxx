@@ -2,23 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Options.h"
 
-#include "Failure.h"
-#include "FileNames.h"
+#include "Argument.h"
+#include "ImageReader.h"
 #include "MeshReader.h"
-#include "ReferenceImage.h"
+#include "OptionChecks.h"
 #include "TextureImage.h"
 #include "VoxelOutput.h"
 
 #include "vtkHybridSurfaceVoxelizer.h"
 #include "vtkSlicemapSolidVoxelizer.h"
+#include "vtkVoxelMorphology.h"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -27,157 +23,17 @@ namespace
 using Solid = vtkSlicemapSolidVoxelizer;
 using Surface = vtkHybridSurfaceVoxelizer;
 using Method = Options::MethodType;
+using Step = Options::Step;
+using Morphology = vtkVoxelMorphology;
 
 /// The smallest positive double: a lower bound that leaves out zero.
 constexpr double Positive = std::numeric_limits<double>::denorm_min();
 
-[[noreturn]] void Refuse(const std::string& message)
-{
-  throw Failure(ExitCode::Usage, message + " (see vtkvoxelize --help)");
-}
-
-/**
- * One value of an option, with checks whose messages name the option.
- */
-class Argument
-{
-public:
-  Argument(std::string option, std::string text)
-    : Option(std::move(option))
-    , Text(std::move(text))
-  {
-  }
-
-  std::string AsFile() const
-  {
-    if (this->Text.empty())
-    {
-      Refuse(this->Option + " needs the name of a file");
-    }
-    return this->Text;
-  }
-
-  int AsInteger(int lowest, int highest = std::numeric_limits<int>::max()) const
-  {
-    const char* const end = this->Text.data() + this->Text.size();
-    int value = 0;
-    const auto [rest, error] = std::from_chars(this->Text.data(), end, value);
-    if (error == std::errc::invalid_argument || rest != end)
-    {
-      this->Refuse("is not a whole number");
-    }
-    const bool negative = this->Text.front() == '-';
-    if (error == std::errc::result_out_of_range)
-    {
-      this->Refuse(negative ? "is negative" : "is too large");
-    }
-    if (value < lowest)
-    {
-      this->Refuse((negative ? "is negative; the least is " : "is too small; the least is ") +
-        std::to_string(lowest));
-    }
-    if (value > highest)
-    {
-      this->Refuse("is too large; the most is " + std::to_string(highest));
-    }
-    return value;
-  }
-
-  double AsReal(double lowest = std::numeric_limits<double>::lowest()) const
-  {
-    char* rest = nullptr;
-    const double value = std::strtod(this->Text.c_str(), &rest);
-    if (this->Text.empty() || *rest != '\0' || !std::isfinite(value))
-    {
-      this->Refuse("is not a number");
-    }
-    if (value < lowest)
-    {
-      this->Refuse(value < 0.0 ? "is negative" : "is zero; it must be positive");
-    }
-    return value;
-  }
-
-  /// The values between commas.
-  std::vector<Argument> Split(std::size_t count) const
-  {
-    std::vector<Argument> parts;
-    std::istringstream text(this->Text);
-    for (std::string part; std::getline(text, part, ',');)
-    {
-      parts.emplace_back(this->Option, part);
-    }
-    if (parts.size() != count || this->Text.back() == ',')
-    {
-      this->Refuse("is not a list of " + std::to_string(count) + " numbers with commas between");
-    }
-    return parts;
-  }
-
-  std::vector<std::string> AsNames() const
-  {
-    std::vector<std::string> names;
-    std::istringstream text(this->Text + ",");
-    for (std::string name; std::getline(text, name, ',');)
-    {
-      if (name.empty())
-      {
-        this->Refuse("has an empty name; names stand between commas");
-      }
-      names.push_back(name);
-    }
-    return names;
-  }
-
-  int AsChoice(const std::vector<std::pair<std::string, int>>& choices) const
-  {
-    std::string names;
-    for (const auto& [name, value] : choices)
-    {
-      if (name == this->Text)
-      {
-        return value;
-      }
-      names += (names.empty() ? "" : ", ") + name;
-    }
-    this->Refuse("is none of " + names);
-  }
-
-  std::array<int, 3> AsDimensions() const
-  {
-    std::array<int, 3> dimensions{};
-    const auto parts = this->Split(dimensions.size());
-    std::transform(parts.begin(), parts.end(), dimensions.begin(),
-      [](const Argument& part) { return part.AsInteger(1); });
-    return dimensions;
-  }
-
-  std::array<double, 6> AsBounds() const
-  {
-    std::array<double, 6> bounds{};
-    const auto parts = this->Split(bounds.size());
-    std::transform(parts.begin(), parts.end(), bounds.begin(),
-      [](const Argument& part) { return part.AsReal(); });
-    for (const std::size_t axis : { 0, 1, 2 })
-    {
-      if (!(bounds[2 * axis] < bounds[2 * axis + 1]))
-      {
-        this->Refuse(std::string("is no box: its upper bound along ") + "xyz"[axis] +
-          " must be greater than its lower one");
-      }
-    }
-    return bounds;
-  }
-
-private:
-  [[noreturn]] void Refuse(const std::string& complaint) const
-  {
-    ::Refuse(this->Option + ": '" + this->Text + "' " + complaint);
-  }
-
-  std::string Option;
-  std::string Text;
-};
+///@{
+/// Voxels to either side of vtkVoxelMorphology's largest sphere, and more than any grid has.
+constexpr int LongestSphereReach = 31;
+constexpr int LongestReach = std::numeric_limits<int>::max() / 16;
+///@}
 
 struct Definition
 {
@@ -185,6 +41,7 @@ struct Definition
   const char* ValueName; // null for a switch
   const char* Help;
   void (*Store)(Options&, const Argument&);
+  bool Repeats = false; // else to be given once
 };
 
 struct Group
@@ -192,6 +49,19 @@ struct Group
   const char* Title;
   std::vector<Definition> Definitions;
 };
+
+void AddJoin(Options& options, Step::Type what, const Argument& file)
+{
+  options.Steps.push_back({ what, file.GetOption(), file.AsFile() });
+}
+
+void AddMorphology(Options& options, Step::Type what, const Argument& reach)
+{
+  const bool isSphere = options.Kernel == Morphology::KERNEL_SPHERE;
+  options.Steps.push_back({ what, reach.GetOption(), {},
+    reach.AsInteger(1, isSphere ? LongestSphereReach : LongestReach), options.Kernel });
+  options.KernelIsUsed = true;
+}
 
 const std::vector<Group>& GetGroups()
 {
@@ -207,14 +77,18 @@ const std::vector<Group>& GetGroups()
         { "--voxel-size", "S", "edge length of a voxel, in the units of the mesh",
           [](Options& o, const Argument& a) { o.VoxelSize = a.AsReal(Positive); } },
         { "--bounds", "X0,X1,Y0,Y1,Z0,Z1",
-          "the box to voxelize, in the units of the mesh (default: that of the mesh)",
+          "the box to voxelize, in the units of the mesh (default: that of the mesh, and of\n"
+          "the meshes that --unite and --xor add)",
           [](Options& o, const Argument& a) { o.Bounds = a.AsBounds(); } },
-        { "--padding", "N", "N more voxels on every side of the box (default: 0)",
+        { "--padding", "N",
+          "N more voxels on every side of the box (default: 0, but with steps that grow or\n"
+          "shrink, and without --bounds, as many as keep all borders out of their way).\n"
+          "What lies beyond the grid changes no voxel: a box that fills it is not eroded.",
           [](Options& o, const Argument& a)
-          { o.Padding = a.AsInteger(0, std::numeric_limits<int>::max() / 4); } },
+          { o.Padding = a.AsInteger(0, Options::LargestPadding); } },
         { "--reference", "IMAGE",
           "take extent, spacing, origin and direction matrix of this image:\n"
-          "@REFERENCES@",
+          "any of @REFERENCES@",
           [](Options& o, const Argument& a) { o.Reference = a.AsFile(); } },
       } },
     { "Voxels",
@@ -299,6 +173,50 @@ const std::vector<Group>& GetGroups()
                 { "max", Surface::COMBINE_MAX }, { "first", Surface::COMBINE_FIRST } });
           } },
       } },
+    { "Steps, which change the voxels one after the other, in the order given here",
+      {
+        { "--unite", "FILE",
+          "add the voxels of this file: a mesh, voxelized as INPUT is, or a mask, an image\n"
+          "on the very same grid that is not 0 where voxels are set, one of\n"
+          "@MASKS@",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Unite, a); }, true },
+        { "--intersect", "FILE", "keep the voxels that are in this file, too",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Intersect, a); }, true },
+        { "--subtract", "FILE", "take the voxels of this file away",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Subtract, a); }, true },
+        { "--xor", "FILE", "keep what is in one of the two, and not in both",
+          [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Xor, a); }, true },
+        { "--complement", nullptr, "set the voxels of the grid that are not set, and no others",
+          [](Options& o, const Argument& a) {
+            o.Steps.push_back({ Step::Type::Complement, a.GetOption(), {} });
+          },
+          true },
+        { "--dilate", "N", "grow by N voxels to every side",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Dilate, a); }, true },
+        { "--erode", "N", "shrink by N voxels from every side",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Erode, a); }, true },
+        { "--open", "N", "erode, then dilate: what is thinner than 2 N + 1 voxels goes",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Open, a); }, true },
+        { "--close", "N", "dilate, then erode: gaps of up to 2 N voxels are filled",
+          [](Options& o, const Argument& a) { AddMorphology(o, Step::Type::Close, a); }, true },
+        { "--kernel", "KERNEL",
+          "what the steps after it grow and shrink by:\n"
+          "box        2 N + 1 voxels along each axis (default)\n"
+          "sphere     of that diameter, N being 31 at most\n"
+          "faces6     N times to the neighbours that share a face,\n"
+          "edges18    or also an edge,\n"
+          "corners26  or also a corner",
+          [](Options& o, const Argument& a)
+          {
+            OptionChecks::CheckKernelIsUsed(o);
+            o.Kernel = a.AsChoice({ { "box", Morphology::KERNEL_BOX },
+              { "faces6", Morphology::KERNEL_FACES6 }, { "edges18", Morphology::KERNEL_EDGES18 },
+              { "corners26", Morphology::KERNEL_CORNERS26 },
+              { "sphere", Morphology::KERNEL_SPHERE } });
+            o.KernelIsUsed = false;
+          },
+          true },
+      } },
     { "Output",
       {
         { "--type", "TYPE", "uchar (default), or bit, which takes an eighth of the memory",
@@ -318,8 +236,9 @@ const std::vector<Group>& GetGroups()
             o.UpAxis = a.AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } });
           } },
         { "--info", nullptr,
-          "print triangles, grid, filled voxels and their volume, leaking columns of\n"
-          "solids, times and the OpenGL renderer, one a line, on the standard output",
+          "print triangles of all meshes, grid, filled voxels and their volume after the\n"
+          "steps, leaking columns of solids, times and the OpenGL renderer, one a line, on\n"
+          "the standard output",
           [](Options& o, const Argument&) { o.Info = true; } },
         { "--quiet", nullptr, "no progress bar and no warnings, errors only",
           [](Options& o, const Argument&) { o.Quiet = true; } },
@@ -347,166 +266,23 @@ const Definition& FindDefinition(const std::string& name)
       }
     }
   }
-  Refuse("unknown option " + name);
-}
-
-using Names = std::set<std::string>;
-
-void RefuseTogether(const Names& given, const std::string& one,
-  const std::vector<std::string>& others, const std::string& why)
-{
-  for (const std::string& other : others)
-  {
-    if (given.count(one) && given.count(other))
-    {
-      std::string message = one;
-      message.append(" and ").append(other).append(" contradict each other: ").append(why);
-      Refuse(message);
-    }
-  }
-}
-
-/// A file and what it is to the command line.
-struct NamedFile
-{
-  std::string Role;
-  std::string Name;
-};
-
-void CheckFiles(const Options& options)
-{
-  const std::pair<const char*, std::optional<std::string>> files[] = {
-    { "INPUT", options.Input },
-    { "--reference", options.Reference },
-    { "--texture", options.Texture },
-    { "OUTPUT", options.Output },
-    { "--picture", options.Picture },
-  };
-  std::vector<NamedFile> before;
-  for (const auto& [role, name] : files)
-  {
-    const bool isWritten = role == std::string("OUTPUT") || role == std::string("--picture");
-    for (const NamedFile& other : before)
-    {
-      if (isWritten && name && FileNames::AreSame(*name, other.Name))
-      {
-        Refuse(other.Role + " and " + role + " are the same file, " + other.Name);
-      }
-    }
-    if (name)
-    {
-      before.push_back({ role, *name });
-    }
-  }
-}
-
-void CheckMethod(const Options& options, const Names& given)
-{
-  const bool isSolid = options.Method == Method::Solid;
-  for (const char* option : { "--mode", "--fill", "--axis" })
-  {
-    if (!isSolid && given.count(option))
-    {
-      Refuse(std::string(option) + " is for solids and does not go with --method surface");
-    }
-  }
-  for (const char* option : { "--separability", "--attributes", "--texture", "--combine" })
-  {
-    if (isSolid && given.count(option))
-    {
-      Refuse(std::string(option) + " needs --method surface");
-    }
-  }
-  if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
-  {
-    Refuse("--combine is for the values that --attributes and --texture ask for");
-  }
-}
-
-void RefuseWithOutput(
-  const Names& given, const char* option, const Options& options, const std::string& why)
-{
-  if (given.count(option))
-  {
-    Refuse(std::string(option) + " and OUTPUT " + options.Output +
-      " contradict each other: " + why + "; write a .vti file");
-  }
-}
-
-void CheckOutput(const Options& options, const Names& given)
-{
-  const auto kind = VoxelOutput::GetKind(options.Output);
-  if (kind != VoxelOutput::Kind::Image)
-  {
-    const std::string what =
-      kind == VoxelOutput::Kind::List ? "a list of voxels" : "an octree of voxels";
-    if (options.Method != Method::Surface)
-    {
-      Refuse("OUTPUT " + options.Output + " is " + what + ", which needs --method surface");
-    }
-    for (const char* option : { "--type", "--value", "--cells" })
-    {
-      RefuseWithOutput(given, option, options, what + " is no image");
-    }
-  }
-  if (options.ScalarType == VTK_BIT && !VoxelOutput::HasBits(options.Output))
-  {
-    RefuseWithOutput(given, "--type", options, "this format has no bits");
-  }
-  if (!VoxelOutput::HasCells(options.Output))
-  {
-    RefuseWithOutput(given, "--cells", options, "this format has no cells");
-  }
-  for (const char* option : { "--attributes", "--texture" })
-  {
-    if (!VoxelOutput::HasAttributes(options.Output))
-    {
-      RefuseWithOutput(given, option, options, "this format has no attributes");
-    }
-  }
-}
-
-void CheckTogether(const Options& options, const Names& given)
-{
-  const std::string oneSize = "each gives the size of the voxels";
-  RefuseTogether(given, "--resolution", { "--dimensions", "--voxel-size" }, oneSize);
-  RefuseTogether(given, "--dimensions", { "--voxel-size" }, oneSize);
-  RefuseTogether(given, "--reference",
-    { "--resolution", "--dimensions", "--voxel-size", "--bounds", "--padding" },
-    "the grid is that of the reference image");
-
-  if (options.Mode == Solid::MODE_BOUNDARY)
-  {
-    RefuseTogether(
-      given, "--mode", { "--fill", "--axis" }, "the mode boundary looks at the surface alone");
-  }
-  if (options.FillRule == Solid::FILL_RULE_VOTE)
-  {
-    RefuseTogether(given, "--fill", { "--axis" }, "the rule vote takes all three axes");
-  }
-  if (options.ScalarType == VTK_BIT && options.Value.value_or(1) != 1)
-  {
-    RefuseTogether(given, "--type", { "--value" }, "a bit that is set is 1");
-  }
-  if (options.UpAxis && !options.Picture)
-  {
-    Refuse("--up is for the picture that --picture asks for");
-  }
+  Argument::RefuseUsage("unknown option " + name);
 }
 
 void StoreFiles(Options& options, const std::vector<std::string>& files)
 {
   if (files.empty() || files[0].empty())
   {
-    Refuse("INPUT and OUTPUT are missing");
+    Argument::RefuseUsage("INPUT and OUTPUT are missing");
   }
   if (files.size() == 1 || files[1].empty())
   {
-    Refuse("OUTPUT is missing");
+    Argument::RefuseUsage("OUTPUT is missing");
   }
   if (files.size() > 2)
   {
-    Refuse("'" + files[2] + "' is one file too many; there are INPUT and OUTPUT only");
+    Argument::RefuseUsage(
+      "'" + files[2] + "' is one file too many; there are INPUT and OUTPUT only");
   }
   options.Input = files[0];
   options.Output = files[1];
@@ -537,9 +313,9 @@ void PrintDefinition(std::ostream& out, const Definition& definition)
   }
   out << head;
   std::string indent;
-  std::istringstream lines(
-    Replaced(Replaced(definition.Help, "@REFERENCES@", "any of " + ReferenceImage::GetExtensions()),
-      "@TEXTURES@", TextureImage::GetExtensions()));
+  std::string help = Replaced(definition.Help, "any of @REFERENCES@", ImageReader::GetExtensions());
+  help = Replaced(help, "@MASKS@", ImageReader::GetImageExtensions());
+  std::istringstream lines(Replaced(help, "@TEXTURES@", TextureImage::GetExtensions()));
   for (std::string line; std::getline(lines, line); indent = "\n" + std::string(column, ' '))
   {
     out << indent << line;
@@ -555,7 +331,7 @@ Options Options::Parse(const std::vector<std::string>& words)
 
   Options options;
   std::vector<std::string> files;
-  Names given;
+  OptionChecks::Names given;
   bool onlyFiles = false;
   for (auto word = words.begin(); word != words.end(); ++word)
   {
@@ -581,7 +357,7 @@ Options Options::Parse(const std::vector<std::string>& words)
     {
       if (!definition.ValueName)
       {
-        Refuse(name + " takes no value");
+        Argument::RefuseUsage(name + " takes no value");
       }
       value = word->substr(equals + 1);
     }
@@ -589,13 +365,13 @@ Options Options::Parse(const std::vector<std::string>& words)
     {
       if (++word == words.end())
       {
-        Refuse(name + " needs a value, " + definition.ValueName);
+        Argument::RefuseUsage(name + " needs a value, " + definition.ValueName);
       }
       value = *word;
     }
-    if (!given.insert(name).second)
+    if (!given.insert(name).second && !definition.Repeats)
     {
-      Refuse(name + " is given twice");
+      Argument::RefuseUsage(name + " is given twice");
     }
     definition.Store(options, Argument(name, value));
   }
@@ -604,10 +380,7 @@ Options Options::Parse(const std::vector<std::string>& words)
     return options;
   }
   StoreFiles(options, files);
-  CheckFiles(options);
-  CheckMethod(options, given);
-  CheckTogether(options, given);
-  CheckOutput(options, given);
+  OptionChecks::Check(options, given);
   return options;
 }
 
@@ -616,7 +389,7 @@ std::string Options::GetHelp()
   std::ostringstream out;
   out << "Usage: vtkvoxelize [OPTIONS] INPUT OUTPUT\n\n"
          "Turns a mesh into voxels, solid by default, on the graphics processor or what stands in\n"
-         "for it.\n\n"
+         "for it; and joins them with others, or makes them grow and shrink, step by step.\n\n"
          "  INPUT             the mesh: "
       << MeshReader::GetExtensions()
       << "\n"
@@ -642,10 +415,15 @@ std::string Options::GetHelp()
        "  vtkvoxelize --reference ct.nrrd --value 3 liver.vtp liver.mha\n"
        "  vtkvoxelize --method surface --attributes RGB --resolution 1024 scan.ply scan.vtp\n"
        "  vtkvoxelize --method surface --texture house.jpg house.obj house.vti\n"
+       "  vtkvoxelize part.stl rest.vti --subtract drill.stl --kernel sphere --open 2\n"
+       "  vtkvoxelize --reference mask.nii.gz liver.stl shell.mha --dilate 3 --subtract "
+       "mask.nii.gz\n"
        "\nExit codes:\n"
        "  0  all is well\n"
        "  1  the command line makes no sense\n"
-       "  2  INPUT, the reference image or the texture can't be read, or INPUT is no mesh\n"
+       "  2  INPUT, the reference image, the texture or the file of a step can't be read, INPUT "
+       "is\n"
+       "     no mesh, or a mask is on another grid\n"
        "  3  voxelization failed: no OpenGL, a grid too large for the memory, an attribute or\n"
        "     texture coordinates that the mesh has not\n"
        "  4  OUTPUT or the picture can't be written\n"

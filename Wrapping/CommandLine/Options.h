@@ -9,6 +9,7 @@
 #define Options_h
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,29 @@ struct Options
   {
     Solid,
     Surface
+  };
+
+  /// What is done to the voxels of INPUT, and to what the steps before have made of them.
+  struct Step
+  {
+    enum class Type
+    {
+      Unite,
+      Intersect,
+      Subtract,
+      Xor,
+      Complement,
+      Dilate,
+      Erode,
+      Open,
+      Close
+    };
+
+    Type What;
+    std::string Option; // as it is given, for messages
+    std::string File;   // of Unite to Xor
+    int Reach = 0;      // of Dilate to Close: voxels to either side
+    int Kernel = 0;     // of these: a constant of vtkVoxelMorphology
   };
 
   std::string Input;
@@ -53,6 +77,16 @@ struct Options
   std::optional<std::string> Texture;
   ///@}
 
+  std::vector<Step> Steps;
+
+  ///@{
+  /**
+   * The kernel for the steps to come, and whether one has had it.
+   */
+  int Kernel = 0;
+  bool KernelIsUsed = true;
+  ///@}
+
   std::optional<int> ScalarType;
   std::optional<int> Value;
   bool Cells = false;
@@ -66,6 +100,7 @@ struct Options
   bool Version = false;
 
   static constexpr int DefaultResolution = 128;
+  static constexpr int LargestPadding = std::numeric_limits<int>::max() / 4;
 
   /**
    * The options in the words that follow the program's name. Throws Failure with ExitCode::Usage

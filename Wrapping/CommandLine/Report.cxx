@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report.h"
 
+#include "VoxelPipeline.h"
+
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkSlicemapSolidVoxelizer.h"
@@ -30,13 +32,35 @@ std::string WithPrecision(double value, int digits)
   text << std::setprecision(digits) << value;
   return text.str();
 }
+
+vtkIdType CountTriangles(const VoxelPipeline& pipeline)
+{
+  vtkIdType count = 0;
+  for (const auto& source : pipeline.GetSources())
+  {
+    count += source.Voxelizer->GetNumberOfTriangles();
+  }
+  return count;
 }
 
-void Report::Describe(vtkVoxelizer* voxelizer, vtkImageData* grid)
+vtkIdType CountLeakingColumns(const VoxelPipeline& pipeline)
 {
+  vtkIdType count = 0;
+  for (const auto& source : pipeline.GetSources())
+  {
+    count += vtkSlicemapSolidVoxelizer::SafeDownCast(source.Voxelizer)->GetNumberOfLeakingColumns();
+  }
+  return count;
+}
+}
+
+void Report::Describe(const VoxelPipeline& pipeline)
+{
+  vtkVoxelAlgorithm* result = pipeline.GetResult();
+  const auto grid = pipeline.GetGrid();
   int dimensions[3];
   grid->GetDimensions(dimensions);
-  const bool cells = voxelizer->GetOutputAttributeType() == vtkVoxelizer::ATTRIBUTE_CELL;
+  const bool cells = result->GetOutputAttributeType() == vtkVoxelAlgorithm::ATTRIBUTE_CELL;
   double voxels = 1.0;
   std::string size;
   for (int n : dimensions)
@@ -46,11 +70,11 @@ void Report::Describe(vtkVoxelizer* voxelizer, vtkImageData* grid)
     size += (size.empty() ? "" : " x ") + std::to_string(n);
   }
   const double* spacing = grid->GetSpacing();
-  const vtkIdType filled = voxelizer->GetNumberOfFilledVoxels();
+  const vtkIdType filled = result->GetNumberOfFilledVoxels();
   const double volume = static_cast<double>(filled) * spacing[0] * spacing[1] * spacing[2] *
     std::abs(grid->GetDirectionMatrix()->Determinant());
 
-  this->Add("triangles", std::to_string(voxelizer->GetNumberOfTriangles()));
+  this->Add("triangles", std::to_string(CountTriangles(pipeline)));
   this->Add("voxels", size);
   this->Add("spacing", Join(spacing, 3));
   this->Add("origin", Join(grid->GetOrigin(), 3));
@@ -69,13 +93,14 @@ void Report::Describe(vtkVoxelizer* voxelizer, vtkImageData* grid)
     std::to_string(filled) + " (" + WithPrecision(100.0 * static_cast<double>(filled) / voxels, 3) +
       " %)");
   this->Add("filled volume", WithPrecision(volume, 8));
-  if (auto* solid = vtkSlicemapSolidVoxelizer::SafeDownCast(voxelizer))
+  vtkVoxelizer* voxelizer = pipeline.GetSources().front().Voxelizer;
+  if (vtkSlicemapSolidVoxelizer::SafeDownCast(voxelizer))
   {
-    this->Add("leaking columns", std::to_string(solid->GetNumberOfLeakingColumns()));
+    this->Add("leaking columns", std::to_string(CountLeakingColumns(pipeline)));
   }
   this->Add(
     "backend", voxelizer->GetUsedBackend() == vtkVoxelizer::BACKEND_COMPUTE ? "compute" : "raster");
-  this->Add("renderer", voxelizer->GetRendererName());
+  this->Add("renderer", result->GetRendererName());
 }
 
 void Report::Add(const std::string& name, const std::string& value)

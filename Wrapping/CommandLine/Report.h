@@ -13,8 +13,7 @@
 #include <utility>
 #include <vector>
 
-class vtkImageData;
-class vtkVoxelizer;
+class VoxelPipeline;
 
 /// Lines of a name and a value, the values in one column.
 class Report
@@ -30,8 +29,8 @@ public:
     this->AddTime(name, time.count());
   }
 
-  /// Adds what the voxelizer did on a grid, whose cells or points its voxels are.
-  void Describe(vtkVoxelizer* voxelizer, vtkImageData* grid);
+  /// Adds what a pipeline that has run made of its meshes.
+  void Describe(const VoxelPipeline& pipeline);
 
   void Print() const;
 

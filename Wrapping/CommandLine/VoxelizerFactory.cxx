@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VoxelizerFactory.h"
 
+#include "ImageReader.h"
 #include "Options.h"
-#include "ReferenceImage.h"
 #include "TextureImage.h"
 
 #include "vtkHybridSurfaceVoxelizer.h"
@@ -16,7 +16,7 @@ void SetGrid(vtkVoxelizer* voxelizer, const Options& options, Messages& messages
 {
   if (options.Reference)
   {
-    voxelizer->SetReferenceImage(ReferenceImage::Read(*options.Reference, messages));
+    voxelizer->SetReferenceImage(ImageReader::ReadGeometry(*options.Reference, messages));
     return;
   }
   if (options.Dimensions)
@@ -38,17 +38,6 @@ void SetGrid(vtkVoxelizer* voxelizer, const Options& options, Messages& messages
   voxelizer->SetPadding(options.Padding.value_or(voxelizer->GetPadding()));
 }
 
-void SetVoxels(vtkVoxelizer* voxelizer, const Options& options)
-{
-  voxelizer->SetBackend(options.Backend.value_or(voxelizer->GetBackend()));
-  voxelizer->SetOutputScalarType(options.ScalarType.value_or(voxelizer->GetOutputScalarType()));
-  voxelizer->SetForegroundValue(options.Value.value_or(voxelizer->GetForegroundValue()));
-  if (options.Cells)
-  {
-    voxelizer->SetOutputAttributeTypeToCell();
-  }
-}
-
 vtkSmartPointer<vtkVoxelizer> MakeSolid(const Options& options)
 {
   auto voxelizer = vtkSmartPointer<vtkSlicemapSolidVoxelizer>::New();
@@ -58,7 +47,7 @@ vtkSmartPointer<vtkVoxelizer> MakeSolid(const Options& options)
   return voxelizer;
 }
 
-vtkSmartPointer<vtkVoxelizer> MakeSurface(const Options& options, Messages& messages)
+vtkSmartPointer<vtkHybridSurfaceVoxelizer> MakeSurface(const Options& options)
 {
   auto voxelizer = vtkSmartPointer<vtkHybridSurfaceVoxelizer>::New();
   voxelizer->SetSeparability(options.Separability.value_or(voxelizer->GetSeparability()));
@@ -68,19 +57,47 @@ vtkSmartPointer<vtkVoxelizer> MakeSurface(const Options& options, Messages& mess
   {
     voxelizer->AddAttribute(name.c_str());
   }
-  if (options.Texture)
+  return voxelizer;
+}
+
+vtkSmartPointer<vtkVoxelizer> MakeWithoutGrid(const Options& options)
+{
+  vtkSmartPointer<vtkVoxelizer> voxelizer = MakeSolid(options);
+  if (options.Method == Options::MethodType::Surface)
   {
-    voxelizer->SetTextureImage(TextureImage::Read(*options.Texture, messages));
+    voxelizer = MakeSurface(options);
   }
+  voxelizer->SetBackend(options.Backend.value_or(voxelizer->GetBackend()));
   return voxelizer;
 }
 }
 
 vtkSmartPointer<vtkVoxelizer> VoxelizerFactory::Make(const Options& options, Messages& messages)
 {
-  auto voxelizer = options.Method == Options::MethodType::Surface ? MakeSurface(options, messages)
-                                                                  : MakeSolid(options);
+  auto voxelizer = MakeWithoutGrid(options);
+  if (options.Texture)
+  {
+    vtkHybridSurfaceVoxelizer::SafeDownCast(voxelizer)->SetTextureImage(
+      TextureImage::Read(*options.Texture, messages));
+  }
   SetGrid(voxelizer, options, messages);
-  SetVoxels(voxelizer, options);
   return voxelizer;
+}
+
+vtkSmartPointer<vtkVoxelizer> VoxelizerFactory::MakeOnGrid(
+  const Options& options, vtkImageData* grid)
+{
+  auto voxelizer = MakeWithoutGrid(options);
+  voxelizer->SetReferenceImage(grid);
+  return voxelizer;
+}
+
+void VoxelizerFactory::SetOutput(vtkVoxelAlgorithm* algorithm, const Options& options)
+{
+  algorithm->SetOutputScalarType(options.ScalarType.value_or(algorithm->GetOutputScalarType()));
+  algorithm->SetForegroundValue(options.Value.value_or(algorithm->GetForegroundValue()));
+  if (options.Cells)
+  {
+    algorithm->SetOutputAttributeTypeToCell();
+  }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file VoxelizerFactory.h
- * Makes the voxelizer that the options ask for.
+ * Makes the voxelizers that the options ask for.
  */
 
 #ifndef VoxelizerFactory_h
@@ -12,6 +12,8 @@
 
 class Messages;
 struct Options;
+class vtkImageData;
+class vtkVoxelAlgorithm;
 class vtkVoxelizer;
 
 namespace VoxelizerFactory
@@ -21,6 +23,12 @@ namespace VoxelizerFactory
  * can't be read.
  */
 vtkSmartPointer<vtkVoxelizer> Make(const Options& options, Messages& messages);
+
+/// The same by the same method, on the grid of an image.
+vtkSmartPointer<vtkVoxelizer> MakeOnGrid(const Options& options, vtkImageData* grid);
+
+/// Gives the filter whose result is written the form of output that the options ask for.
+void SetOutput(vtkVoxelAlgorithm* algorithm, const Options& options);
 }
 
 #endif

@@ -3,7 +3,6 @@
 // The program vtkvoxelize: reads a mesh, voxelizes it, writes the voxels.
 #include "Failure.h"
 #include "FileNames.h"
-#include "MeshReader.h"
 #include "Messages.h"
 #include "Options.h"
 #include "Picture.h"
@@ -11,15 +10,13 @@
 #include "StagedFiles.h"
 #include "Terminal.h"
 #include "VoxelOutput.h"
+#include "VoxelPipeline.h"
 #include "VoxelSet.h"
-#include "VoxelizerFactory.h"
 
 #include "vtkImageData.h"
-#include "vtkInformation.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersion.h"
-#include "vtkVoxelizer.h"
+#include "vtkVoxelAlgorithm.h"
 
 #include <cstdlib>
 #include <iostream>
@@ -28,51 +25,20 @@ namespace
 {
 using Kind = VoxelOutput::Kind;
 
-void Voxelize(vtkVoxelizer* voxelizer, Kind kind, Messages& messages, Terminal& terminal)
-{
-  terminal.Watch(voxelizer, "voxelizing");
-  voxelizer->Update(static_cast<int>(kind));
-  const auto errors = messages.TakeErrors();
-  if (!errors.empty())
-  {
-    throw Failure(ExitCode::Voxelization, errors.front());
-  }
-  for (const std::string& warning : messages.TakeWarnings())
-  {
-    terminal.PrintWarning(warning);
-  }
-  if (voxelizer->GetNumberOfFilledVoxels() == 0)
-  {
-    terminal.PrintWarning(
-      "no voxel is set: the mesh lies outside of the grid, or is thinner than its voxels");
-  }
-}
-
-/// The grid of the voxels, whatever their kind, as an image without arrays.
-vtkSmartPointer<vtkImageData> GetGrid(vtkVoxelizer* voxelizer)
-{
-  vtkInformation* information = voxelizer->GetOutputInformation(0);
-  auto grid = vtkSmartPointer<vtkImageData>::New();
-  grid->SetExtent(information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
-  grid->SetSpacing(information->Get(vtkDataObject::SPACING()));
-  grid->SetOrigin(information->Get(vtkDataObject::ORIGIN()));
-  grid->SetDirectionMatrix(information->Get(vtkDataObject::DIRECTION()));
-  return grid;
-}
-
 /// What the picture shows: octrees have a list made of them first.
-VoxelSet GetVoxels(vtkVoxelizer* voxelizer, Kind kind, Messages& messages, Terminal& terminal)
+VoxelSet GetVoxels(VoxelPipeline& pipeline, Kind kind)
 {
+  vtkVoxelAlgorithm* result = pipeline.GetResult();
   if (kind == Kind::Image)
   {
-    return VoxelSet(voxelizer->GetOutput());
+    return VoxelSet(result->GetOutput());
   }
   if (kind == Kind::Octree)
   {
-    Voxelize(voxelizer, Kind::List, messages, terminal);
+    pipeline.Run(Kind::List);
   }
-  vtkDataObject* list = voxelizer->GetOutputDataObject(static_cast<int>(Kind::List));
-  return { vtkPolyData::SafeDownCast(list), GetGrid(voxelizer) };
+  vtkDataObject* list = result->GetOutputDataObject(static_cast<int>(Kind::List));
+  return { vtkPolyData::SafeDownCast(list), pipeline.GetGrid() };
 }
 
 std::string StagePicture(const Options& options, StagedFiles& files)
@@ -121,27 +87,27 @@ void Run(const Options& options, Terminal& terminal)
   const std::string picture = StagePicture(options, files);
   const VoxelOutput output(options.Output, files);
   const auto kind = VoxelOutput::GetKind(options.Output);
-  const auto voxelizer = VoxelizerFactory::Make(options, messages);
+  VoxelPipeline pipeline(options, messages, terminal);
 
   Report report;
-  report.Time("reading",
-    [&] { voxelizer->SetInputDataObject(MeshReader::Read(options.Input, messages, terminal)); });
-  report.Time("voxelizing", [&] { Voxelize(voxelizer, kind, messages, terminal); });
+  report.Time("reading", [&] { pipeline.Read(); });
+  report.Time("voxelizing", [&] { pipeline.Run(kind); });
   report.Time("writing",
     [&]
-    { output.Write(voxelizer->GetOutputDataObject(static_cast<int>(kind)), messages, terminal); });
+    {
+      output.Write(
+        pipeline.GetResult()->GetOutputDataObject(static_cast<int>(kind)), messages, terminal);
+    });
   if (options.Picture)
   {
-    report.Time("drawing",
-      [&] {
-        WritePicture(GetVoxels(voxelizer, kind, messages, terminal), options, picture, terminal);
-      });
+    report.Time(
+      "drawing", [&] { WritePicture(GetVoxels(pipeline, kind), options, picture, terminal); });
   }
   files.Commit();
   terminal.ClearBar();
   if (options.Info)
   {
-    report.Describe(voxelizer, GetGrid(voxelizer));
+    report.Describe(pipeline);
     report.Print();
   }
 }

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OptionChecks.h"
+
+#include "Argument.h"
+#include "FileNames.h"
+#include "Options.h"
+#include "VoxelOutput.h"
+
+#include "vtkSlicemapSolidVoxelizer.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace
+{
+using Names = OptionChecks::Names;
+using Solid = vtkSlicemapSolidVoxelizer;
+using Method = Options::MethodType;
+
+void RefuseTogether(const Names& given, const std::string& one,
+  const std::vector<std::string>& others, const std::string& why)
+{
+  for (const std::string& other : others)
+  {
+    if (given.count(one) && given.count(other))
+    {
+      std::string message = one;
+      message.append(" and ").append(other).append(" contradict each other: ").append(why);
+      Argument::RefuseUsage(message);
+    }
+  }
+}
+
+/// A file and what it is to the command line.
+struct NamedFile
+{
+  std::string Role;
+  std::string Name;
+};
+
+void CheckFiles(const Options& options)
+{
+  std::vector<NamedFile> files = { { "INPUT", options.Input } };
+  const auto add = [&](const std::string& role, const std::optional<std::string>& name)
+  {
+    if (name && !name->empty())
+    {
+      files.push_back({ role, *name });
+    }
+  };
+  const auto addWritten = [&](const std::string& role, const std::optional<std::string>& name)
+  {
+    for (const NamedFile& other : files)
+    {
+      if (name && FileNames::AreSame(*name, other.Name))
+      {
+        Argument::RefuseUsage(other.Role + " and " + role + " are the same file, " + other.Name);
+      }
+    }
+    add(role, name);
+  };
+  add("--reference", options.Reference);
+  add("--texture", options.Texture);
+  for (const Options::Step& step : options.Steps)
+  {
+    add(step.Option, step.File);
+  }
+  addWritten("OUTPUT", options.Output);
+  addWritten("--picture", options.Picture);
+}
+
+void CheckMethod(const Options& options, const Names& given)
+{
+  const bool isSolid = options.Method == Method::Solid;
+  for (const char* option : { "--mode", "--fill", "--axis" })
+  {
+    if (!isSolid && given.count(option))
+    {
+      Argument::RefuseUsage(
+        std::string(option) + " is for solids and does not go with --method surface");
+    }
+  }
+  for (const char* option : { "--separability", "--attributes", "--texture", "--combine" })
+  {
+    if (isSolid && given.count(option))
+    {
+      Argument::RefuseUsage(std::string(option) + " needs --method surface");
+    }
+  }
+  if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
+  {
+    Argument::RefuseUsage("--combine is for the values that --attributes and --texture ask for");
+  }
+}
+
+void RefuseWithOutput(
+  const Names& given, const char* option, const Options& options, const std::string& why)
+{
+  if (given.count(option))
+  {
+    Argument::RefuseUsage(std::string(option) + " and OUTPUT " + options.Output +
+      " contradict each other: " + why + "; write a .vti file");
+  }
+}
+
+void CheckOutput(const Options& options, const Names& given)
+{
+  const auto kind = VoxelOutput::GetKind(options.Output);
+  if (kind != VoxelOutput::Kind::Image)
+  {
+    const std::string what =
+      kind == VoxelOutput::Kind::List ? "a list of voxels" : "an octree of voxels";
+    if (options.Method != Method::Surface)
+    {
+      Argument::RefuseUsage(
+        "OUTPUT " + options.Output + " is " + what + ", which needs --method surface");
+    }
+    for (const char* option : { "--type", "--value", "--cells" })
+    {
+      RefuseWithOutput(given, option, options, what + " is no image");
+    }
+  }
+  if (options.ScalarType == VTK_BIT && !VoxelOutput::HasBits(options.Output))
+  {
+    RefuseWithOutput(given, "--type", options, "this format has no bits");
+  }
+  if (!VoxelOutput::HasCells(options.Output))
+  {
+    RefuseWithOutput(given, "--cells", options, "this format has no cells");
+  }
+  for (const char* option : { "--attributes", "--texture" })
+  {
+    if (!VoxelOutput::HasAttributes(options.Output))
+    {
+      RefuseWithOutput(given, option, options, "this format has no attributes");
+    }
+  }
+}
+
+void CheckTogether(const Options& options, const Names& given)
+{
+  const std::string oneSize = "each gives the size of the voxels";
+  RefuseTogether(given, "--resolution", { "--dimensions", "--voxel-size" }, oneSize);
+  RefuseTogether(given, "--dimensions", { "--voxel-size" }, oneSize);
+  RefuseTogether(given, "--reference",
+    { "--resolution", "--dimensions", "--voxel-size", "--bounds", "--padding" },
+    "the grid is that of the reference image");
+
+  if (options.Mode == Solid::MODE_BOUNDARY)
+  {
+    RefuseTogether(
+      given, "--mode", { "--fill", "--axis" }, "the mode boundary looks at the surface alone");
+  }
+  if (options.FillRule == Solid::FILL_RULE_VOTE)
+  {
+    RefuseTogether(given, "--fill", { "--axis" }, "the rule vote takes all three axes");
+  }
+  if (options.ScalarType == VTK_BIT && options.Value.value_or(1) != 1)
+  {
+    RefuseTogether(given, "--type", { "--value" }, "a bit that is set is 1");
+  }
+  if (options.UpAxis && !options.Picture)
+  {
+    Argument::RefuseUsage("--up is for the picture that --picture asks for");
+  }
+}
+
+void CheckSteps(const Options& options, const Names& given)
+{
+  OptionChecks::CheckKernelIsUsed(options);
+  if (options.Steps.empty())
+  {
+    return;
+  }
+  const std::string& step = options.Steps.front().Option;
+  for (const char* option : { "--attributes", "--texture" })
+  {
+    RefuseTogether(given, step, { option }, "steps change which voxels are set, and no more");
+  }
+  if (VoxelOutput::GetKind(options.Output) != VoxelOutput::Kind::Image)
+  {
+    RefuseWithOutput(given, step.c_str(), options, "steps make an image");
+  }
+}
+}
+
+void OptionChecks::CheckKernelIsUsed(const Options& options)
+{
+  if (!options.KernelIsUsed)
+  {
+    Argument::RefuseUsage(
+      "--kernel is for the --dilate, --erode, --open and --close after it, but there are none");
+  }
+}
+
+void OptionChecks::Check(const Options& options, const Names& given)
+{
+  CheckFiles(options);
+  CheckMethod(options, given);
+  CheckTogether(options, given);
+  CheckOutput(options, given);
+  CheckSteps(options, given);
+}

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VoxelPipeline.h"
+
+#include "Failure.h"
+#include "ImageReader.h"
+#include "InputFile.h"
+#include "MeshReader.h"
+#include "Messages.h"
+#include "Options.h"
+#include "StepExtent.h"
+#include "StepFilter.h"
+#include "Terminal.h"
+#include "VoxelizerFactory.h"
+
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkPointData.h"
+#include "vtkVoxelFilter.h"
+#include "vtkVoxelGrid.h"
+#include "vtkVoxelizer.h"
+
+#include <array>
+
+namespace
+{
+/// Whether both grids have as many voxels at the same places, whatever their indices are.
+bool AreAlike(const vtkVoxelGrid& one, const vtkVoxelGrid& other)
+{
+  // Formats that keep coordinates in single precision are no nearer.
+  constexpr double tolerance = 1e-3;
+  const glm::ivec3 last = one.GetDimensions() - 1;
+  if (one.GetDimensions() != other.GetDimensions())
+  {
+    return false;
+  }
+  const std::array<glm::ivec3, 4> corners = { glm::ivec3(0), glm::ivec3(last.x, 0, 0),
+    glm::ivec3(0, last.y, 0), glm::ivec3(0, 0, last.z) };
+  const auto otherToOne = one.GetWorldToIndex() * other.GetIndexToWorld();
+  for (const glm::ivec3& corner : corners)
+  {
+    const glm::dvec4 found = otherToOne * glm::dvec4(glm::dvec3(other.GetFirst() + corner), 1.0);
+    const glm::dvec3 wanted(one.GetFirst() + corner);
+    if (!(glm::length(glm::dvec3(found) - wanted) < tolerance))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void RefuseErrors(Messages& messages)
+{
+  const auto errors = messages.TakeErrors();
+  if (!errors.empty())
+  {
+    throw Failure(ExitCode::Voxelization, errors.front());
+  }
+}
+
+vtkSmartPointer<vtkDataObject> ReadStepFile(
+  const std::string& file, Messages& messages, Terminal& terminal)
+{
+  if (ImageReader::IsImage(file))
+  {
+    return ImageReader::Read(file, messages, terminal);
+  }
+  InputFile::CheckReadable(file);
+  if (!MeshReader::IsMesh(file))
+  {
+    InputFile::Refuse(file,
+      "its name is neither that of a mesh, " + MeshReader::GetExtensions() +
+        ", nor that of a mask, " + ImageReader::GetImageExtensions());
+  }
+  return MeshReader::Read(file, messages, terminal);
+}
+}
+
+VoxelPipeline::VoxelPipeline(const Options& options, Messages& messages, Terminal& terminal)
+  : Asked(options)
+  , Said(messages)
+  , Shown(terminal)
+{
+  this->Sources.push_back({ options.Input, VoxelizerFactory::Make(options, messages) });
+}
+
+VoxelPipeline::~VoxelPipeline() = default;
+
+void VoxelPipeline::Read()
+{
+  this->Sources.front().Voxelizer->SetInputDataObject(
+    MeshReader::Read(this->Asked.Input, this->Said, this->Shown));
+  for (const Options::Step& step : this->Asked.Steps)
+  {
+    this->StepObjects.push_back(
+      step.File.empty() ? nullptr : ReadStepFile(step.File, this->Said, this->Shown));
+  }
+  this->FitGrid();
+  this->Connect();
+  VoxelizerFactory::SetOutput(this->GetResult(), this->Asked);
+}
+
+void VoxelPipeline::FitGrid()
+{
+  vtkVoxelizer* first = this->Sources.front().Voxelizer;
+  if (!this->Asked.Steps.empty() && !this->Asked.Reference && !this->Asked.Bounds)
+  {
+    const StepExtent extent(this->Asked.Steps);
+    vtkBoundingBox box = MeshReader::GetBounds(first->GetInputDataObject(0, 0));
+    for (std::size_t i = 0; i < this->StepObjects.size(); ++i)
+    {
+      vtkDataObject* object = this->StepObjects[i];
+      if (object && extent.Adds(i) && !vtkImageData::SafeDownCast(object))
+      {
+        box.AddBox(MeshReader::GetBounds(object));
+      }
+    }
+    std::array<double, 6> bounds;
+    box.GetBounds(bounds.data());
+    first->SetModelBounds(bounds.data());
+    first->SetPadding(this->Asked.Padding.value_or(extent.GetMargin()));
+  }
+}
+
+void VoxelPipeline::Connect()
+{
+  if (this->Asked.Steps.empty())
+  {
+    return;
+  }
+  vtkVoxelizer* first = this->Sources.front().Voxelizer;
+  first->HostOutputOff();
+  first->UpdateInformation();
+  RefuseErrors(this->Said);
+  this->StepGrid = this->GetGrid();
+  for (std::size_t i = 0; i < this->Asked.Steps.size(); ++i)
+  {
+    const Options::Step& step = this->Asked.Steps[i];
+    const auto filter = StepFilter::Make(step);
+    filter->SetInputConnection(this->GetResult()->GetOutputPort());
+    vtkDataObject* object = this->StepObjects[i];
+    if (auto* mask = vtkImageData::SafeDownCast(object))
+    {
+      filter->AddInputDataObject(this->PlaceMask(mask, step.File));
+    }
+    else if (object)
+    {
+      filter->AddInputConnection(this->AddSource(object, step.File)->GetOutputPort());
+    }
+    filter->HostOutputOff();
+    this->Filters.push_back(filter);
+  }
+  this->GetResult()->HostOutputOn();
+}
+
+vtkVoxelizer* VoxelPipeline::AddSource(vtkDataObject* mesh, const std::string& file)
+{
+  const auto voxelizer = VoxelizerFactory::MakeOnGrid(this->Asked, this->StepGrid);
+  voxelizer->SetInputDataObject(mesh);
+  voxelizer->HostOutputOff();
+  this->Sources.push_back({ file, voxelizer });
+  return voxelizer;
+}
+
+vtkImageData* VoxelPipeline::PlaceMask(vtkImageData* mask, const std::string& file)
+{
+  const bool cells = !mask->GetPointData()->GetScalars();
+  const auto image = vtkVoxelGrid::FromImage(mask);
+  const auto there = cells ? image.CellsToVoxels() : image;
+  const auto here = vtkVoxelGrid::FromImage(this->StepGrid);
+  if (!AreAlike(here, there))
+  {
+    InputFile::Refuse(file,
+      "it is not on the grid of the voxels: " + there.Describe() + " there, " + here.Describe() +
+        " here; give --reference " + file + ", or a mask on that grid");
+  }
+  (cells ? here.VoxelsToCells() : here).ApplyTo(mask);
+  return mask;
+}
+
+void VoxelPipeline::Run(VoxelOutput::Kind kind)
+{
+  if (!this->Asked.Steps.empty())
+  {
+    for (const Source& source : this->Sources)
+    {
+      this->Update(source.Voxelizer, kind, source.File + ": ");
+    }
+  }
+  this->Update(this->GetResult(), kind, "");
+}
+
+void VoxelPipeline::Update(
+  vtkVoxelAlgorithm* algorithm, VoxelOutput::Kind kind, const std::string& label)
+{
+  this->Shown.Watch(algorithm, "voxelizing");
+  algorithm->Update(static_cast<int>(kind));
+  RefuseErrors(this->Said);
+  for (const std::string& warning : this->Said.TakeWarnings())
+  {
+    this->Shown.PrintWarning(label + warning);
+  }
+  if (algorithm->GetNumberOfFilledVoxels() == 0)
+  {
+    this->Shown.PrintWarning(label + "no voxel is set: " +
+      (vtkVoxelFilter::SafeDownCast(algorithm)
+          ? "the steps leave none"
+          : "the mesh lies outside of the grid, or is thinner than its voxels"));
+  }
+}
+
+vtkVoxelAlgorithm* VoxelPipeline::GetResult() const
+{
+  if (this->Filters.empty())
+  {
+    return this->Sources.front().Voxelizer;
+  }
+  return this->Filters.back();
+}
+
+vtkSmartPointer<vtkImageData> VoxelPipeline::GetGrid() const
+{
+  auto grid = vtkSmartPointer<vtkImageData>::New();
+  vtkVoxelGrid::FromInformation(this->GetResult()->GetOutputInformation(0)).ApplyTo(grid);
+  return grid;
+}

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file VoxelPipeline.h
+ * From files to voxels: the voxelizers of all meshes, and the filters that the steps ask for.
+ */
+
+#ifndef VoxelPipeline_h
+#define VoxelPipeline_h
+
+#include "VoxelOutput.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class Messages;
+struct Options;
+class Terminal;
+class vtkDataObject;
+class vtkImageData;
+class vtkVoxelAlgorithm;
+class vtkVoxelFilter;
+class vtkVoxelizer;
+
+/**
+ * The voxels stay on the GPU up to the last filter, which alone reads its result back. All
+ * functions but the getters throw Failure.
+ */
+class VoxelPipeline
+{
+public:
+  /// Reads what the options have beside meshes and masks.
+  VoxelPipeline(const Options& options, Messages& messages, Terminal& terminal);
+  ~VoxelPipeline();
+  VoxelPipeline(const VoxelPipeline&) = delete;
+  void operator=(const VoxelPipeline&) = delete;
+
+  /// Reads meshes and masks, and connects all.
+  void Read();
+
+  /// Makes voxels of this kind, which there may be of pipelines without steps.
+  void Run(VoxelOutput::Kind kind);
+
+  /// The last one, whose output are the voxels.
+  vtkVoxelAlgorithm* GetResult() const;
+
+  /// A mesh and what makes voxels of it.
+  struct Source
+  {
+    std::string File;
+    vtkSmartPointer<vtkVoxelizer> Voxelizer;
+  };
+
+  /// Those of all meshes, INPUT first.
+  const std::vector<Source>& GetSources() const { return this->Sources; }
+
+  /// The grid of the voxels, whatever their kind, as an image without arrays.
+  vtkSmartPointer<vtkImageData> GetGrid() const;
+
+private:
+  void FitGrid();
+  void Connect();
+  vtkVoxelizer* AddSource(vtkDataObject* mesh, const std::string& file);
+  vtkImageData* PlaceMask(vtkImageData* mask, const std::string& file);
+  void Update(vtkVoxelAlgorithm* algorithm, VoxelOutput::Kind kind, const std::string& label);
+
+  const Options& Asked;
+  Messages& Said;
+  Terminal& Shown;
+
+  std::vector<Source> Sources;
+  std::vector<vtkSmartPointer<vtkDataObject>> StepObjects; // by step; null where it has no file
+  std::vector<vtkSmartPointer<vtkVoxelFilter>> Filters;    // by step
+  vtkSmartPointer<vtkImageData> StepGrid;                  // whose points are the voxels
+};
+
+#endif
