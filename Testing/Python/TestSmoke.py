@@ -79,15 +79,14 @@ def leaves(tree):
 class Smoke(unittest.TestCase):
     def test_instances(self):
         abstract = vtkVoxelAlgorithm, vtkVoxelFilter, vtkVoxelizer
-        names = [name for name in dir(vtkvoxelization) if name.startswith("vtk")]
-        self.assertIn("vtkSlicemapSolidVoxelizer", names)
-        for name in names:
-            made = getattr(vtkvoxelization, name)
-            if made in abstract:
+        classes = {name: value for name, value in vars(vtkvoxelization).items() if isinstance(value, type)}
+        self.assertIn("vtkSlicemapSolidVoxelizer", classes)
+        for name, one in classes.items():
+            if one in abstract:
                 with self.assertRaises(TypeError):
-                    made()
+                    one()
             else:
-                instance = made()
+                instance = one()
                 self.assertEqual(instance.GetClassName(), name)
                 self.assertIn(name, str(instance))
 
