@@ -17,7 +17,7 @@
 // and level sets of a volume of 512^3 shorts, in memory to bits on the GPU, of so many values:
 //
 //   LevelSets/COUNT  vtkImageToSlicemap
-//   Copy/512         std::memcpy of the scalars
+//   CopyScalars/512  std::memcpy of the scalars
 //   ThresholdVTK/1   vtkImageThreshold, to an image of unsigned char
 
 #include "VoxelBenchmarks.h"
@@ -173,7 +173,7 @@ void LevelSets(benchmark::State& state)
   Run(state, filter);
 }
 
-void Copy(benchmark::State& state)
+void CopyScalars(benchmark::State& state)
 {
   const auto volume = MakeVolume();
   const auto bytes = static_cast<std::size_t>(volume->GetNumberOfPoints()) * sizeof(short);
@@ -346,7 +346,7 @@ int main(int argc, char* argv[])
   AddRows("ChainVTKLines", ChainVTK<true>, mesh, { 8 }, 1);
   AddRows("Union", Union, mesh, { Resolution }, 5);
   AddRows("LevelSets", LevelSets, { 1, 4 }, 5);
-  AddRows("Copy", Copy, { Resolution }, 5);
+  AddRows("CopyScalars", CopyScalars, { Resolution }, 5);
   AddRows("ThresholdVTK", ThresholdVTK, { 1 }, 1);
   return RunRows(argc, argv);
 }

@@ -28,6 +28,15 @@ WAYS = (
 VOXELS = (
     ("Filters", "image"), ("FilterBits", "bits on the GPU"), ("VTKImaging", "VTK's imaging filters"),
     ("NumPy", "NumPy and scipy"), ("Structure", "scipy.ndimage.binary_dilation"), ("SimpleITK", "SimpleITK"))
+FILTERS = (
+    ("Dilate", "dilation by a box"), ("Open", "opening by a box"), ("DilateSphere", "dilation by a sphere"),
+    ("DilateVTK", "vtkImageDilateErode3D"), ("DensityCount", "counts in boxes"),
+    ("Density", "density and normals"), ("DensityCoarse", "density and normals of boxes side by side"),
+    ("Chain", "two meshes, difference, dilation, density and normals"),
+    ("ChainVTK", "the same, VTK's filters"), ("ChainVTKLines", "the same, VTK's filters, dilated by lines"))
+LEVEL_SETS = (
+    ("LevelSets/1", "one level set"), ("LevelSets/4", "four level sets"),
+    ("CopyScalars/512", "a copy of the scalars"), ("ThresholdVTK/1", "vtkImageThreshold"), ("Union/512", "union of two solids"))
 VOXEL_RATIOS = tuple(
     (slow, fast, f"{what} than {label}") for slow, label in VOXELS[2:]
     for fast, what in (("Filters", "image"), ("FilterBits", "bits")))
@@ -72,6 +81,12 @@ def ratios(times, slow, fast, mesh):
     return {s: t / ours[s] for s, t in by_size(times, slow, mesh).items() if s in ours}
 
 
+def by_kernel(times, kind):
+    prefix = f"{kind}/"
+    return {int(name[len(prefix):]): t for name, t in times.items()
+            if name.startswith(prefix) and name.count("/") == 1}
+
+
 def tables(times, key, title, kinds, comparisons):
     meshes = sorted({name.split("/")[1] for name in times if name.startswith(f"{key}/")})
     table(f"times faster, {title}", [(f"{mesh}, {label}", ratios(times, slow, fast, mesh))
@@ -91,6 +106,11 @@ def main():
             print(f"\nParity scan of {size}^3 bits: {factor} times a copy of them.")
     tables(times, "SurfaceBits", "surface", SURFACES, SURFACE_RATIOS)
     tables(times, "NumPy", "work on voxels", VOXELS, VOXEL_RATIOS)
+    table("milliseconds, bunny of 512 voxels, by size of the kernel",
+          [(label, by_kernel(times, kind)) for kind, label in FILTERS])
+    for name, label in LEVEL_SETS:
+        if name in times:
+            print(f"\n512^3, {label}: {number(times[name])} ms.")
     tables(times, "Hybrid", "thin surface by strategy", WAYS, ())
 
 

@@ -7,7 +7,7 @@ and the same bunny beside it on the same grid. Prints JSON: {"TOOL/STEP/SIZE": m
 Steps, each from voxels in memory to its result in memory:
     dilate 3, dilate 7  by a box of so many voxels on each axis
     difference          of the two solids
-    density             float means of 7^3 voxels
+    density             float means of 8^3 voxels, or of 7^3 by tools that have boxes of odd sizes only
     normals             density, and the gradients of it, of unit length but for SimpleITK
     chain               dilate 7 of the second solid, difference from the first, normals of that
     fill holes          of the first solid with one voxel in a thousand turned over
@@ -26,7 +26,6 @@ import sys
 
 import numpy as np
 import scipy
-import vtkvoxelization
 from scipy import ndimage
 from timing import minimum
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -39,7 +38,7 @@ from vtkmodules.vtkImagingMath import vtkImageLogic
 from vtkmodules.vtkImagingMorphological import vtkImageConnectivityFilter, vtkImageDilateErode3D
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkvoxelization import (
-    vtkSlicemapSolidVoxelizer, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelMorphology)
+    vtkSlicemapSolidVoxelizer, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelDensityNormals, vtkVoxelMorphology)
 
 try:
     import SimpleITK
@@ -47,7 +46,8 @@ except ImportError:
     SimpleITK = None
 
 BOXES = (3, 7)
-DENSITY_BOX = 7
+DENSITY_BOX = 8
+ODD_DENSITY_BOX = 7
 SHIFT = 0.1  # of the second solid, in lengths of the first
 NOISE = 0.001
 
@@ -106,10 +106,9 @@ def filters(inputs, host_output=True):
         return boolean
 
     def density(port, has_normals):
-        result = vtkvoxelization.vtkVoxelDensityNormals()
+        result = vtkVoxelDensityNormals()
         result.SetInputConnection(port)
         result.SetKernelSize(DENSITY_BOX, DENSITY_BOX, DENSITY_BOX)
-        result.SetDownsample(False)
         if has_normals:
             result.SetNormalModeToSymmetric()
         else:
@@ -144,7 +143,7 @@ def filters(inputs, host_output=True):
     steps["difference"] = updated(difference(a, b))
     steps["fill holes"] = updated(connected(vtkVoxelConnectivity.OPERATION_FILL_HOLES, 26))
     steps["keep largest"] = updated(connected(vtkVoxelConnectivity.OPERATION_KEEP_LARGEST, 6))
-    if host_output and hasattr(vtkvoxelization, "vtkVoxelDensityNormals"):
+    if host_output:
         steps["density"] = updated(density(a, False))
         steps["normals"] = updated(density(a, True))
         first = dilated(b, BOXES[-1])
@@ -184,8 +183,8 @@ def vtk_imaging(inputs):
 
     def density(image):
         weights = vtkFloatArray()
-        for _ in range(DENSITY_BOX):
-            weights.InsertNextValue(1 / DENSITY_BOX)
+        for _ in range(ODD_DENSITY_BOX):
+            weights.InsertNextValue(1 / ODD_DENSITY_BOX)
         mean = vtkImageSeparableConvolution()
         mean.SetInputData(image)
         for axis in "XYZ":
@@ -252,7 +251,7 @@ def simpleitk(inputs):
         return SimpleITK.BinaryDilate(image, (size // 2,) * 3, SimpleITK.sitkBox, 0, 1)
 
     def density(image):
-        return SimpleITK.BoxMean(SimpleITK.Cast(image, SimpleITK.sitkFloat32), (DENSITY_BOX // 2,) * 3)
+        return SimpleITK.BoxMean(SimpleITK.Cast(image, SimpleITK.sitkFloat32), (ODD_DENSITY_BOX // 2,) * 3)
 
     def normals(image):
         return SimpleITK.Gradient(density(image))
