@@ -20,13 +20,25 @@ using vtkVoxelGL::Program;
 
 namespace
 {
+/// Of sums that share nothing with their neighbours.
 constexpr int MaximumTaps = 8;
+
+/// Voxels along y or z whose sums follow from one another, one number more and one less; and quads
+/// along x that share what they read.
+constexpr int RunLength = 16;
+constexpr int RunOfQuads = 4;
+
 constexpr int VoxelsPerQuad = 128;
 constexpr std::int64_t QuadBytes = 16;
 constexpr unsigned int SourceUnit = 0;
 
 /// Small enough for the caches of a processor that runs OpenGL in software.
 constexpr std::int64_t SlabBytes = std::int64_t(1) << 23;
+
+int GetRunLength(int axis)
+{
+  return axis == 0 ? RunOfQuads : RunLength;
+}
 
 int GetLogarithm(int powerOfTwo)
 {
@@ -61,6 +73,14 @@ struct vtkDensityPass::Step
   int Planes;
   glm::ivec3 SourceSize;
   glm::ivec3 Size;
+
+  std::int64_t GetNumberOfCalls(bool runs) const
+  {
+    glm::ivec3 calls = this->Size;
+    calls[this->Axis] =
+      runs ? DividedUp(calls[this->Axis], GetRunLength(this->Axis)) : calls[this->Axis];
+    return GetNumberOfQuads(calls);
+  }
 };
 
 vtkDensityPass::vtkDensityPass(
@@ -69,6 +89,11 @@ vtkDensityPass::vtkDensityPass(
   , Kernel(kernel)
   , Downsampled(downsampled)
 {
+}
+
+bool vtkDensityPass::UsesRuns() const
+{
+  return !this->Downsampled && this->Context->SupportsCompute();
 }
 
 int vtkDensityPass::GetNumberOfPlanes() const
@@ -103,7 +128,7 @@ std::vector<vtkDensityPass::Step> vtkDensityPass::GetSteps(
   const auto addAxis = [&](int axis, int first, int count)
   {
     const int kernel = this->Kernel[axis];
-    const int taps = std::min(kernel, MaximumTaps);
+    const int taps = this->UsesRuns() ? kernel : std::min(kernel, MaximumTaps);
     const int rest = kernel / taps;
     next.First = this->Downsampled ? first * kernel : first - kernel / 2;
     next.Distance = 1;
@@ -137,6 +162,11 @@ void vtkDensityPass::RunStep(
   defines["SOURCE_PLANES"] = std::to_string(step.SourcePlanes);
   defines["PLANES"] = std::to_string(step.Planes);
   const bool alongRows = step.Axis == 0;
+  const bool runs = this->UsesRuns();
+  if (runs)
+  {
+    defines["RUNS"] = std::to_string(GetRunLength(step.Axis));
+  }
   if (!alongRows)
   {
     defines["AXIS"] = std::to_string(step.Axis);
@@ -152,7 +182,7 @@ void vtkDensityPass::RunStep(
   const vtkSlicemapQuadKernel kernel(alongRows ? "vtkDensityRows" : "vtkDensitySums",
     std::string(vtkDensityAdderGLSL) + (alongRows ? vtkDensityRowsGLSL : vtkDensitySumsGLSL),
     std::move(defines));
-  kernel.Run(this->Context, target, GetNumberOfQuads(step.Size),
+  kernel.Run(this->Context, target, step.GetNumberOfCalls(runs),
     [&](Program& program)
     {
       source.Bind(SourceUnit);

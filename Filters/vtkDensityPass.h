@@ -7,8 +7,9 @@
  *
  * Counts are spread over planes of bits: bit b of plane p of a quad (four words) is worth 2^p in
  * the count of voxel b of that quad. So an addition of 128 numbers is a few logical operations for
- * each of their bits. Boxes are done axis by axis, up to eight voxels at a time, so that the cost
- * grows with the logarithm of their size, and slab by slab of the result.
+ * each of their bits. Boxes are done axis by axis, and slab by slab of the result. Along y and z,
+ * moving sums follow from one another where there are compute shaders, so that they cost the same
+ * whatever their size; others are made of up to eight voxels at a time.
  */
 
 #ifndef vtkDensityPass_h
@@ -57,6 +58,7 @@ public:
 
 private:
   struct Step;
+  bool UsesRuns() const;
   std::vector<Step> GetSteps(const glm::ivec3& sourceSize, int firstSlice, int slices) const;
   void RunStep(
     const Step& step, const vtkVoxelGL::Texture& source, vtkVoxelGL::Buffer& target) const;

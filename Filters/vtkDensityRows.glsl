@@ -6,6 +6,7 @@
 //                before each voxel on
 // SOURCE_PLANES  planes of the numbers that are added
 // PLANES         planes of their sums
+// RUNS           defined: so many quads of a row by one call; not with DOWNSAMPLED
 //
 // Source       the numbers, a plane of a quad each texel; zero beyond the end of a row
 // SourceQuads  its quads of a row
@@ -85,18 +86,14 @@ void kernel(uint quad, out uvec4 sum[PLANES])
 
 #else
 
-void kernel(uint quad, out uvec4 sum[PLANES])
+// Of a quad, and of the words beside it: sums from each voxel on, moved to begin KERNEL / 2 before.
+void sumFrom(uvec4 here[SOURCE_PLANES], uvec2 besideHere[SOURCE_PLANES], out uvec4 sum[PLANES])
 {
-  int row = int(quad) / QuadsPerRow;
-  int place = int(quad) % QuadsPerRow;
-  // Sums from each voxel on; beside those of the quad, those of the word before it and behind it.
   uvec2 beside[PLANES];
   for (int p = 0; p < PLANES; ++p)
   {
-    bool given = p < SOURCE_PLANES;
-    sum[p] = given ? planeAt(row, place, p) : uvec4(0u);
-    beside[p] =
-      given ? uvec2(planeAt(row, place - 1, p).w, planeAt(row, place + 1, p).x) : uvec2(0u);
+    sum[p] = p < SOURCE_PLANES ? here[min(p, SOURCE_PLANES - 1)] : uvec4(0u);
+    beside[p] = p < SOURCE_PLANES ? besideHere[min(p, SOURCE_PLANES - 1)] : uvec2(0u);
   }
   for (int covered = 1; covered < KERNEL; covered *= 2)
   {
@@ -119,4 +116,52 @@ void kernel(uint quad, out uvec4 sum[PLANES])
   }
 }
 
+#ifdef RUNS
+
+void run(uint call)
+{
+  int runsPerRow = (QuadsPerRow + RUNS - 1) / RUNS;
+  int row = int(call) / runsPerRow;
+  int begin = int(call) % runsPerRow * RUNS;
+  int end = min(begin + RUNS, QuadsPerRow);
+  uvec4 here[SOURCE_PLANES];
+  uvec4 behind[SOURCE_PLANES];
+  uvec2 beside[SOURCE_PLANES];
+  for (int p = 0; p < SOURCE_PLANES; ++p)
+  {
+    here[p] = planeAt(row, begin - 1, p);
+    behind[p] = planeAt(row, begin, p);
+  }
+  for (int quad = begin; quad < end; ++quad)
+  {
+    for (int p = 0; p < SOURCE_PLANES; ++p)
+    {
+      beside[p].x = here[p].w;
+      here[p] = behind[p];
+      behind[p] = planeAt(row, quad + 1, p);
+      beside[p].y = behind[p].x;
+    }
+    uvec4 sum[PLANES];
+    sumFrom(here, beside, sum);
+    put(uint(row * QuadsPerRow + quad), sum);
+  }
+}
+
+#else
+
+void kernel(uint quad, out uvec4 sum[PLANES])
+{
+  int row = int(quad) / QuadsPerRow;
+  int place = int(quad) % QuadsPerRow;
+  uvec4 here[SOURCE_PLANES];
+  uvec2 beside[SOURCE_PLANES];
+  for (int p = 0; p < SOURCE_PLANES; ++p)
+  {
+    here[p] = planeAt(row, place, p);
+    beside[p] = uvec2(planeAt(row, place - 1, p).w, planeAt(row, place + 1, p).x);
+  }
+  sumFrom(here, beside, sum);
+}
+
+#endif
 #endif

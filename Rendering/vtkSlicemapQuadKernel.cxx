@@ -61,6 +61,14 @@ void vtkSlicemapQuadKernel::RunCompute(
   bind(program);
   GLint64 blockBytes = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
+  if (this->Defines.count("RUNS"))
+  {
+    target.BindBase(GL_SHADER_STORAGE_BUFFER, 0);
+    program.Set("NumberOfQuads", static_cast<unsigned int>(calls));
+    vtkVoxelDispatch(calls);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    return;
+  }
   const std::int64_t callBytes = QuadBytes * this->GetQuadsPerCall();
   const std::int64_t callsAtOnce = blockBytes / callBytes / CallsPerBlock * CallsPerBlock;
   for (std::int64_t first = 0; first < calls; first += callsAtOnce)

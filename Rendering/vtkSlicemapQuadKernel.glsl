@@ -5,6 +5,8 @@
 // them to storage buffer 0, which begins with the first of them; the fragment stage to an RGBA32UI
 // render target, row after row of QuadsPerLine pixels. With PLANES, each call of
 // the kernel makes that many quads, which follow one another; the compute stage counts calls then.
+// With RUNS, which only the compute stage has, a call of run() puts as many of these groups as it
+// likes, wherever they belong.
 
 uniform uint FirstQuad;
 
@@ -30,6 +32,20 @@ layout(std430, binding = 0) writeonly buffer Target
 
 uniform uint NumberOfQuads;
 
+#ifdef PLANES
+void put(uint group, uvec4 planes[PLANES])
+{
+  for (int p = 0; p < PLANES; ++p)
+  {
+    Quads[group * uint(PLANES) + uint(p)] = planes[p];
+  }
+}
+#endif
+
+#ifdef RUNS
+void run(uint call);
+#endif
+
 void main()
 {
   uint index =
@@ -38,13 +54,12 @@ void main()
   {
     return;
   }
-#ifdef PLANES
+#ifdef RUNS
+  run(index);
+#elif defined(PLANES)
   uvec4 planes[PLANES];
   kernel(FirstQuad + index, planes);
-  for (int p = 0; p < PLANES; ++p)
-  {
-    Quads[index * uint(PLANES) + uint(p)] = planes[p];
-  }
+  put(index, planes);
 #else
   Quads[index] = kernel(FirstQuad + index);
 #endif

@@ -10,7 +10,9 @@
  * `uvec4 sourceQuad(usamplerBuffer source, uint quad)`. The target may be one of them. Written
  * once, it runs as a compute or as a fragment shader. With the define PLANES it is a function
  * `void kernel(uint quad, out uvec4 planes[PLANES])`, whose results lie one after the other in the
- * target, which is a buffer then.
+ * target, which is a buffer then. With the define RUNS besides, which needs compute shaders, it is
+ * `void run(uint call)` and calls `void put(uint quad, uvec4 planes[PLANES])` for quads of its
+ * choice, so that neighbours can share what they read.
  */
 
 #ifndef vtkSlicemapQuadKernel_h
@@ -41,7 +43,8 @@ public:
   /// Fills all of `target`, which is allocated, in the current context. Throws std::runtime_error.
   void Run(const vtkVoxelGL::Context& context, vtkSlicemap* target, const Bind& bind) const;
 
-  /// Fills `target` by so many calls of the kernel; it may be larger.
+  /// Fills `target` by so many calls of the kernel; it may be larger, but with RUNS not than a
+  /// storage block.
   void Run(const vtkVoxelGL::Context& context, vtkVoxelGL::Buffer& target, std::int64_t calls,
     const Bind& bind) const;
 
