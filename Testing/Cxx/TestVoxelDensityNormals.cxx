@@ -42,6 +42,12 @@ using Filter = vtkVoxelDensityNormals;
 using Triple = std::array<int, 3>;
 using Vector = std::array<double, 3>;
 
+bool HasCompute()
+{
+  vtkNew<vtkVoxelContext> context;
+  return context->SupportsCompute();
+}
+
 /// Numbers on a grid, in the order of its points.
 struct Field
 {
@@ -350,8 +356,7 @@ void TestChain(VoxelTestChecks& checks)
   filter->SetInputConnection(dilation->GetOutputPort());
   filter->SetDensityTypeToCount();
   filter->SetKernelSize(1, 1, 1);
-  vtkNew<vtkVoxelContext> context;
-  if (!context->SupportsCompute())
+  if (!HasCompute())
   {
     // Without compute shaders, columns that leak are counted on the host.
     difference->Update();
@@ -435,7 +440,10 @@ int TestVoxelDensityNormals(int /*argc*/, char* /*argv*/[])
   VoxelTestChecks checks;
   TestAgainstLoops(checks);
   TestGeometry(checks);
-  TestSphere(checks);
+  if (HasCompute())
+  {
+    TestSphere(checks); // slow without, and about quality
+  }
   TestChain(checks);
   TestErrors(checks);
   TestAbort(checks);
