@@ -389,6 +389,16 @@ vtkDataObject* vtkTetraCoveringVoxelizer::UpdateInput()
     vtkErrorMacro("There is no input. Connect a mesh.");
     return nullptr;
   }
+  try
+  {
+    // The pipeline does not ask again for information that it once failed to get.
+    this->CheckProperties();
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return nullptr;
+  }
   if (!this->GetExecutive()->UpdateInformation())
   {
     return nullptr;
