@@ -91,7 +91,7 @@ std::vector<glm::vec3> vtkTetraAugmentation::MakeDisplacements() const
     for (int axis = 0; axis < 3; ++axis)
     {
       const double number = normal ? random.NextNormal() : random.NextSigned();
-      vector[axis] = static_cast<float>(this->Amplitude * number);
+      vector[axis] = static_cast<float>(number);
     }
   }
   return ring;

@@ -44,7 +44,7 @@ struct vtkTetraAugmentation
   glm::dvec3 Axis{ 0.0, 0.0, 1.0 };
   std::array<double, 2> ScaleRange{ 1.0, 1.0 };
   Distribution Displacements = Distribution::Uniform;
-  double Amplitude = 0.0; ///< in world units
+  float Amplitude = 0.0f; ///< of displacements, in world units
 
   struct Variant
   {
@@ -55,8 +55,8 @@ struct vtkTetraAugmentation
 
   Variant GetVariant(std::uint64_t number) const;
 
-  /// The ring of displacements. Their components have the given distribution: up to the amplitude
-  /// to both sides, or with the amplitude as standard deviation.
+  /// The ring of displacements in units of the amplitude. Their components have the given
+  /// distribution: up to 1 to both sides, or with a standard deviation of 1.
   std::vector<glm::vec3> MakeDisplacements() const;
 
   /// Where a variant of a model goes: about its centre and, where there is a grid, moved to the

@@ -39,20 +39,18 @@ namespace
 {
 using Augmentation = vtkTetraAugmentation;
 
-/// What the displacement on the GPU was made from.
-using DisplacementKey =
-  std::tuple<const vtkTetraModel*, std::uint64_t, int, int, double, const void*>;
+using Displacement = vtkVoxelMeshDisplacement;
 
-/// Kept with the context since passes hold buffers worth reusing.
-template <typename Pass, typename... Arguments>
-Pass& GetPass(const std::string& name, const vtkVoxelGL::Context& context, Arguments... arguments)
+/// Kept with the context, since it holds buffers worth reusing.
+template <typename Kept, typename... Arguments>
+Kept& GetKept(const std::string& name, const vtkVoxelGL::Context& context, Arguments... arguments)
 {
   auto& cached = context->GetCache()[name];
   if (!cached)
   {
-    cached = std::make_shared<Pass>(context, arguments...);
+    cached = std::make_shared<Kept>(arguments...);
   }
-  return *static_cast<Pass*>(cached.get());
+  return *static_cast<Kept*>(cached.get());
 }
 
 /// The voxels of `grid` as the untransformed model sees them.
@@ -96,15 +94,24 @@ void CopyPart(vtkSlicemap* all, const vtkVoxelGrid& grid, vtkSlicemap* part)
   part->CopyVoxels(all, { offset.x, offset.y, offset.z });
 }
 
-/// Length of the longest move that a ring of displacements makes.
-double GetLargest(const std::vector<glm::vec3>& ring, bool alongNormals)
+/// The ring of a seed is kept with the context: all models of a data set have it in common.
+std::shared_ptr<const Displacement::Ring> GetRing(
+  const vtkVoxelGL::Context& context, const Augmentation& augmentation)
 {
-  double largest = 0.0;
-  for (const glm::dvec3 vector : ring)
+  struct Kept
   {
-    largest = std::max(largest, alongNormals ? std::abs(vector.x) : glm::length(vector));
+    std::shared_ptr<const Displacement::Ring> Ring;
+    std::uint64_t Seed;
+    Augmentation::Distribution Distribution;
+  };
+  auto& kept = GetKept<Kept>("ring of displacements", context);
+  if (!kept.Ring || kept.Seed != augmentation.Seed ||
+    kept.Distribution != augmentation.Displacements)
+  {
+    kept = { std::make_shared<Displacement::Ring>(context, augmentation.MakeDisplacements()),
+      augmentation.Seed, augmentation.Displacements };
   }
-  return largest;
+  return kept.Ring;
 }
 }
 
@@ -114,7 +121,8 @@ struct vtkTetraCoveringVoxelizer::Internals
   int UploadOfModel = 0;
   vtkVoxelMesh ClosedMesh;
   vtkVoxelMeshDisplacement Displacement;
-  DisplacementKey Displaced;
+  /// What the points of the displacement were made from.
+  std::tuple<const vtkTetraModel*, bool, const void*> Displaced;
   vtkNew<vtkSlicemap> Solid;
   vtkNew<vtkSlicemap> Shell;
 };
@@ -159,9 +167,9 @@ void vtkTetraCoveringVoxelizer::CheckProperties()
     "ScaleRange is " + std::to_string(this->ScaleRange[0]) + ", " +
       std::to_string(this->ScaleRange[1]) +
       "; the lower bound must be positive and not above the upper one.");
-  require(this->DisplacementAmplitude >= 0.0 && std::isfinite(this->DisplacementAmplitude),
+  require(this->DisplacementAmplitude >= 0.0 && this->DisplacementAmplitude <= 1.0,
     "DisplacementAmplitude is " + std::to_string(this->DisplacementAmplitude) +
-      "; it must be 0 or positive.");
+      "; it must be 0 to 1.");
 }
 
 bool vtkTetraCoveringVoxelizer::HasVariants() const
@@ -184,7 +192,8 @@ vtkTetraAugmentation vtkTetraCoveringVoxelizer::GetAugmentation(const vtkTetraMo
   augmentation.ScaleRange = { this->ScaleRange[0], this->ScaleRange[1] };
   augmentation.Displacements =
     static_cast<Augmentation::Distribution>(this->DisplacementDistribution);
-  augmentation.Amplitude = this->DisplacementAmplitude * model.GetFrame().GetLongestSide();
+  augmentation.Amplitude =
+    static_cast<float>(this->DisplacementAmplitude * model.GetFrame().GetLongestSide());
   return augmentation;
 }
 
@@ -253,20 +262,17 @@ void vtkTetraCoveringVoxelizer::PrepareDisplacement(const vtkTetraAugmentation& 
 {
   const vtkTetraModel& model = *this->Tetra->Model;
   const auto context = this->GetContext()->GetRecord();
-  const DisplacementKey key{ &model, augmentation.Seed, this->DisplacementDistribution,
-    this->DisplacementDirection, augmentation.Amplitude, context.get() };
-  if (this->Tetra->Displaced == key)
-  {
-    return;
-  }
-  const bool alongNormals = this->MovesAlongNormals();
-  const auto places = model.FindPlaces();
-  const auto ring = augmentation.MakeDisplacements();
   auto& displacement = this->Tetra->Displacement;
-  displacement.SetPoints(
-    context, places, alongNormals ? model.ComputeNormals(places) : std::vector<glm::vec3>());
-  displacement.SetRing(context, ring, GetLargest(ring, alongNormals));
-  this->Tetra->Displaced = key;
+  displacement.SetRing(GetRing(context, augmentation), augmentation.Amplitude);
+  const bool alongNormals = this->MovesAlongNormals();
+  const auto key = std::make_tuple(&model, alongNormals, static_cast<const void*>(context.get()));
+  if (this->Tetra->Displaced != key)
+  {
+    const auto places = model.FindPlaces();
+    displacement.SetPoints(
+      context, places, alongNormals ? model.ComputeNormals(places) : std::vector<glm::vec3>());
+    this->Tetra->Displaced = key;
+  }
 }
 
 bool vtkTetraCoveringVoxelizer::RunPass(
@@ -275,12 +281,12 @@ bool vtkTetraCoveringVoxelizer::RunPass(
   const auto context = this->GetContext()->GetRecord();
   if (this->GetUsedBackend() == BACKEND_COMPUTE)
   {
-    auto& pass = GetPass<vtkSolidComputePass>(
-      "tetrahedra compute pass", context, vtkSolidPass::Ties::UpperInside);
+    auto& pass = GetKept<vtkSolidComputePass>(
+      "tetrahedra compute pass", context, context, vtkSolidPass::Ties::UpperInside);
     const int axis = pass.GetCheapestAxis(mesh, solid->GetGrid());
     return pass.FillSolid(mesh, solid, axis, vtkSolidPass::Rule::Parity, progress);
   }
-  auto& pass = GetPass<vtkTetraRasterPass>("tetrahedra raster pass", context);
+  auto& pass = GetKept<vtkTetraRasterPass>("tetrahedra raster pass", context, context);
   const auto method = this->RasterMethod == RASTER_SLICES ? vtkTetraRasterPass::Method::Slices
                                                           : vtkTetraRasterPass::Method::Layers;
   return pass.FillSolid(mesh, this->Tetra->Model->GetFrame().Origin, solid, method, progress);
@@ -295,7 +301,7 @@ bool vtkTetraCoveringVoxelizer::FillSolid(vtkTypeInt64 variant, vtkVoxelMesh& me
   {
     const vtkTetraModel& model = *this->Tetra->Model;
     const auto augmentation = this->GetAugmentation(model);
-    const bool displaced = augmentation.Amplitude > 0.0;
+    const bool displaced = augmentation.Amplitude > 0.0f;
     auto& displacement = this->Tetra->Displacement;
     if (displaced)
     {
@@ -534,9 +540,10 @@ bool vtkTetraCoveringVoxelizer::GetVariantMatrix(vtkTypeInt64 variant, vtkMatrix
     [&](const vtkTetraModel& model)
     {
       const auto augmentation = this->GetAugmentation(model);
-      const double largest = augmentation.Amplitude > 0.0
-        ? GetLargest(augmentation.MakeDisplacements(), this->MovesAlongNormals())
-        : 0.0;
+      const double largest = augmentation.Amplitude > 0.0f ? augmentation.Amplitude *
+          Displacement::Ring::GetLongest(
+            augmentation.MakeDisplacements(), this->MovesAlongNormals())
+                                                           : 0.0;
       const auto transform = this->Place(augmentation, variant, model, largest).Transform;
       for (int row = 0; row < 4; ++row)
       {
@@ -554,14 +561,14 @@ bool vtkTetraCoveringVoxelizer::GetVariantMesh(vtkTypeInt64 variant, vtkPolyData
     [&](const vtkTetraModel& model)
     {
       const auto augmentation = this->GetAugmentation(model);
-      const bool displaced = augmentation.Amplitude > 0.0;
+      const bool displaced = augmentation.Amplitude > 0.0f;
       const bool alongNormals = this->MovesAlongNormals();
       const auto ring = displaced ? augmentation.MakeDisplacements() : std::vector<glm::vec3>();
       const auto places = displaced ? model.FindPlaces() : std::vector<std::uint32_t>();
       const auto normals =
         displaced && alongNormals ? model.ComputeNormals(places) : std::vector<glm::vec3>();
-      const auto placement =
-        this->Place(augmentation, variant, model, GetLargest(ring, alongNormals));
+      const auto placement = this->Place(augmentation, variant, model,
+        augmentation.Amplitude * Displacement::Ring::GetLongest(ring, alongNormals));
 
       vtkNew<vtkAppendPolyData> append;
       vtkNew<vtkPoints> points;
@@ -577,7 +584,8 @@ bool vtkTetraCoveringVoxelizer::GetVariantMesh(vtkTypeInt64 variant, vtkPolyData
           if (displaced)
           {
             const glm::vec3& free = ring[(places[id] + placement.FirstDisplacement) % ring.size()];
-            point += glm::dvec3(alongNormals ? free.x * normals[id] : free);
+            point += glm::dvec3(alongNormals ? (augmentation.Amplitude * free.x) * normals[id]
+                                             : augmentation.Amplitude * free);
           }
           point = glm::dvec3(placement.Transform * glm::dvec4(point, 1.0));
           points->InsertNextPoint(&point[0]);

@@ -6,13 +6,13 @@
 #include "vtkIdList.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkPlaceHash.h"
 #include "vtkVoxelMeshEdges.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace
 {
@@ -125,16 +125,24 @@ std::vector<std::uint32_t> vtkTetraModel::FindPlaces() const
       points.push_back(point);
     }
   }
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-    [&](std::uint32_t a, std::uint32_t b)
-    { return points[a] != points[b] ? points[a] < points[b] : a < b; });
-  std::vector<std::uint32_t> places(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
+  // A hash table with open addressing, half full at most.
+  constexpr std::uint32_t none = ~0u;
+  std::size_t capacity = 2;
+  while (capacity < 2 * points.size())
   {
-    const bool isSame = i > 0 && points[order[i]] == points[order[i - 1]];
-    places[order[i]] = isSame ? places[order[i - 1]] : order[i];
+    capacity *= 2;
+  }
+  std::vector<std::uint32_t> table(capacity, none);
+  std::vector<std::uint32_t> places(points.size());
+  for (std::uint32_t id = 0; id < points.size(); ++id)
+  {
+    std::size_t at = vtkHashPlace(points[id].data()) & (capacity - 1);
+    while (table[at] != none && points[table[at]] != points[id])
+    {
+      at = (at + 1) & (capacity - 1);
+    }
+    table[at] = std::min(table[at], id);
+    places[id] = table[at];
   }
   return places;
 }

@@ -13,29 +13,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 class vtkVoxelMeshDisplacement
 {
-public:
-  /// Uploads, for each point, the first one at its place and, if they are to be used, the normals.
-  void SetPoints(const vtkVoxelGL::Context& context, const std::vector<std::uint32_t>& places,
-    const std::vector<glm::vec3>& normals);
-
-  /// Uploads the ring of vectors, and the length of the longest move that they make.
-  void SetRing(
-    const vtkVoxelGL::Context& context, const std::vector<glm::vec3>& ring, double largest);
-
-  /// Where in the ring the first place begins.
-  void SetFirst(std::uint32_t first) { this->First = first; }
-
-  double GetLargest() const { return this->Largest; }
-  vtkVoxelGL::Program::Defines GetDefines() const;
-
-  /// Binds the buffer textures to units `unit` to `unit` + 2; the program must be in use.
-  void Bind(vtkVoxelGL::Program& program, unsigned int unit) const;
-
-private:
   /// A buffer and the texture that reads it.
   struct Table
   {
@@ -46,12 +28,48 @@ private:
     vtkVoxelGL::Texture Texture;
   };
 
+public:
+  /// Vectors in units of an amplitude, which any mesh may use.
+  class Ring
+  {
+  public:
+    /// Their number must be a power of two.
+    Ring(const vtkVoxelGL::Context& context, const std::vector<glm::vec3>& vectors);
+
+    /// Length of the longest one, or largest first component.
+    static double GetLongest(const std::vector<glm::vec3>& vectors, bool alongNormals);
+
+  private:
+    friend class vtkVoxelMeshDisplacement;
+    Table Vectors;
+    std::uint32_t Mask;
+    double Longest;
+    double LongestAlongNormals;
+  };
+
+  /// Uploads, for each point, the first one at its place and, if they are to be used, the normals.
+  void SetPoints(const vtkVoxelGL::Context& context, const std::vector<std::uint32_t>& places,
+    const std::vector<glm::vec3>& normals);
+
+  void SetRing(std::shared_ptr<const Ring> ring, float amplitude);
+
+  /// Where in the ring the first place begins.
+  void SetFirst(std::uint32_t first) { this->First = first; }
+
+  /// Length of the longest move.
+  double GetLargest() const;
+  vtkVoxelGL::Program::Defines GetDefines() const;
+
+  /// Binds the buffer textures to units `unit` to `unit` + 2; the program must be in use.
+  void Bind(vtkVoxelGL::Program& program, unsigned int unit) const;
+
+private:
   Table Places;
   Table Normals;
-  Table Ring;
-  std::uint32_t RingSize = 0;
+  std::shared_ptr<const Ring> Vectors;
+  float Amplitude = 0.0f;
   std::uint32_t First = 0;
-  double Largest = 0.0;
+  bool PlacesDiffer = false;
   bool AlongNormals = false;
 };
 

@@ -5,6 +5,7 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
+#include "vtkPlaceHash.h"
 #include "vtkPoints.h"
 #include "vtkSMPTools.h"
 #include "vtkStaticCleanPolyData.h"
@@ -17,7 +18,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <numeric>
 
@@ -87,18 +87,10 @@ void VisitEdges(vtkPolyData* mesh, Visit&& visit)
   }
 }
 
-/// The finalizer of SplitMix64.
-std::uint64_t Mix(std::uint64_t x)
-{
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return x ^ x >> 31;
-}
-
 std::uint64_t HashOfEdge(std::uint64_t a, std::uint64_t b)
 {
   constexpr std::uint64_t salt = 0x9e3779b97f4a7c15u;
-  return a == b ? 0 : Mix(std::max(a, b) + Mix(std::min(a, b) + salt));
+  return a == b ? 0 : vtkHashBits(std::max(a, b) + vtkHashBits(std::min(a, b) + salt));
 }
 
 /// Hash of the edges of triangles or other polygons by whole arrays; false when they have another
@@ -155,13 +147,7 @@ std::vector<std::uint64_t> HashPlaces(vtkPolyData* mesh)
       {
         std::array<double, 3> place;
         points->GetTuple(i, place.data());
-        for (const double x : place)
-        {
-          const double unsignedZero = x + 0.0;
-          std::uint64_t bits;
-          std::memcpy(&bits, &unsignedZero, sizeof(bits));
-          keys[i] = Mix(keys[i] + bits);
-        }
+        keys[i] = vtkHashPlace(place.data());
       }
     });
   return keys;
