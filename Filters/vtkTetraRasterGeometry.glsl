@@ -1,4 +1,4 @@
-// Cuts the tetrahedron of a triangle and the origin by slices: Ogayar et al. 2022, section III-A and III-B.
+// Cuts the tetrahedron of a triangle and the origin by slices: Ogayar et al., section III-A and III-B.
 //
 // SLICES       number of slices that an invocation does; MAX_VERTICES is four times as many
 // LAYERED      defined when slices are layers of the render target; else there is one slice

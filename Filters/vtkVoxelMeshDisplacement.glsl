@@ -12,7 +12,7 @@
 // Amplitude       their unit, in world coordinates
 // Normals         RGB32F buffer texture, a point: the unit normal; with ALONG_NORMALS only
 //
-// The point at place i takes vector i + FirstDisplacement of the ring: Ogayar et al. 2022, section III-B.
+// The point at place i takes vector i + FirstDisplacement of the ring: Ogayar et al., section III-B.
 
 #ifdef DISPLACED
 

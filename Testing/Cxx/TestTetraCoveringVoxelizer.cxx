@@ -206,6 +206,41 @@ bool TestComposite()
   return good;
 }
 
+/// Grids beyond one render target, and longer than a texture has layers.
+bool TestLargeGrids()
+{
+  const int seed = 2;
+  const Mesh soup = RandomTetrahedra(seed, 30, 1.0);
+  bool good = true;
+  for (const auto& n : std::vector<std::array<int, 3>>{
+         { 2050, 40, 33 }, { 40, 1100, 33 }, { 33, 40, 2100 }, { 1030, 1030, 70 } })
+  {
+    const auto grid = MakeGrid({ 0, n[0] - 1, 0, n[1] - 1, 0, n[2] - 1 },
+      { 0.3 / n[0], 0.4 / n[1], 0.2 / n[2] }, { 1.0 / n[0], 1.0 / n[1], 1.0 / n[2] });
+    const Volume expected = CrossingParityReference(soup, Grid::FromImage(grid));
+    for (const int backend : Backends)
+    {
+      good &= CheckSame("soup seed 2 at " + std::to_string(n[0]) + " x " + std::to_string(n[1]) +
+          " x " + std::to_string(n[2]),
+        MakeVoxelizer(soup, grid, backend), expected, soup);
+    }
+  }
+  return good;
+}
+
+/// Both ways of rasterization draw the same sections.
+bool TestRasterMethods(vtkPolyData* bunny)
+{
+  const auto voxelizer =
+    MakeVoxelizer(bunny, MakeGridAround(bunny, 50), vtkVoxelizer::BACKEND_RASTER);
+  voxelizer->SetRasterMethodToLayers();
+  voxelizer->Update();
+  const Volume layers = OccupancyOf(voxelizer->GetOutput());
+  voxelizer->SetRasterMethodToSlices();
+  voxelizer->Update();
+  return Report("slices beside layers", Compare(voxelizer->GetOutput(), layers));
+}
+
 bool TestParts(vtkPolyData* bunny)
 {
   const auto grid = MakeGridAround(bunny, 50);
@@ -238,6 +273,8 @@ int TestTetraCoveringVoxelizer(int argc, char* argv[])
   good &= TestDefinition();
   good &= TestTies();
   good &= TestComposite();
+  good &= TestLargeGrids();
+  good &= TestRasterMethods(bunny);
   good &= TestParts(bunny);
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -9,11 +9,14 @@ import unittest
 import numpy as np
 import vtkvoxelization
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData, vtkPolyData)
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
     vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkSlicemap, vtkSlicemapSolidVoxelizer,
-    vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer,
+    vtkTetraCoveringVoxelizer, vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelContext, vtkVoxelFilter, vtkVoxelizer,
     vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
@@ -37,6 +40,22 @@ VALUES = {
     "MemoryLimit": 123456,
 }
 SOLID_VALUES = {"Mode": 3, "FillRule": 2, "ColumnAxis": 1}
+TETRA_VALUES = {
+    "Shell": 18,
+    "KeepInterior": True,
+    "ShellValue": 5,
+    "Seed": -12345678901,
+    "Variant": 7,
+    "RotationMode": 2,
+    "FixedRotation": (30.0, 1.0, 2.0, 3.0),
+    "RotationAxis": (0.0, 1.0, 2.0),
+    "ScaleRange": (0.5, 1.5),
+    "DisplacementAmplitude": 0.05,
+    "DisplacementDistribution": 1,
+    "DisplacementDirection": 1,
+    "SafeScaleToFit": True,
+    "RasterMethod": 0,
+}
 SURFACE_VALUES = {"Separability": 6, "Strategy": 2, "CutoffArea": 3.5, "AttributeCombination": 3}
 
 
@@ -79,7 +98,8 @@ def leaves(tree):
 class Smoke(unittest.TestCase):
     def test_instances(self):
         for name in ("vtkBinvoxReader", "vtkBinvoxWriter", "vtkHybridSurfaceVoxelizer", "vtkSlicemap",
-                     "vtkSlicemapSolidVoxelizer", "vtkVoxelBoolean", "vtkVoxelContext", "vtkVoxelMorphology"):
+                     "vtkSlicemapSolidVoxelizer", "vtkTetraCoveringVoxelizer", "vtkVoxelBoolean",
+                     "vtkVoxelContext", "vtkVoxelMorphology"):
             instance = getattr(vtkvoxelization, name)()
             self.assertEqual(instance.GetClassName(), name)
             self.assertIn(name, str(instance))
@@ -124,6 +144,28 @@ class Smoke(unittest.TestCase):
         found = vtk_to_numpy(morphology.GetOutput().GetPointData().GetScalars())
         self.assertTrue(np.array_equal(found.reshape(9, 11, 13), values))
 
+    def test_variants(self):
+        voxelizer = vtkTetraCoveringVoxelizer()
+        voxelizer.SetInputData(sphere())
+        voxelizer.SetSampleDimensions(20, 20, 20)
+        voxelizer.SetRotationModeToUniform()
+        voxelizer.SetScaleRange(0.5, 1.5)
+        voxelizer.SafeScaleToFitOn()
+        array = vtkUnsignedCharArray()
+        self.assertTrue(voxelizer.VoxelizeBatch(3, 4, array))
+        batch = vtk_to_numpy(array).reshape(4, 20, 20, 20)
+        voxelizer.SetVariant(5)
+        voxelizer.Update()
+        single = vtk_to_numpy(voxelizer.GetOutput().GetPointData().GetScalars())
+        self.assertTrue(np.array_equal(batch[2], single.reshape(20, 20, 20)))
+        self.assertTrue(single.any() and not np.array_equal(batch[0], batch[1]))
+        matrix = vtkMatrix4x4()
+        self.assertTrue(voxelizer.GetVariantMatrix(5, matrix))
+        mesh = vtkPolyData()
+        self.assertTrue(voxelizer.GetVariantMesh(5, mesh))
+        point = sphere().GetPoint(7) + (1.0,)
+        np.testing.assert_allclose(mesh.GetPoint(7), matrix.MultiplyPoint(point)[:3], atol=1e-12)
+
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()
         ball.SetInputData(sphere())
@@ -142,7 +184,8 @@ class Smoke(unittest.TestCase):
 
     def test_properties(self):
         for voxelizer, own in (
-                (vtkSlicemapSolidVoxelizer(), SOLID_VALUES), (vtkHybridSurfaceVoxelizer(), SURFACE_VALUES)):
+                (vtkSlicemapSolidVoxelizer(), SOLID_VALUES), (vtkHybridSurfaceVoxelizer(), SURFACE_VALUES),
+                (vtkTetraCoveringVoxelizer(), TETRA_VALUES)):
             for name, value in {**VALUES, **own}.items():
                 getattr(voxelizer, "Set" + name)(value)
                 self.assertEqual(getattr(voxelizer, "Get" + name)(), value, name)
