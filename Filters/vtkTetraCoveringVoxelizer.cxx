@@ -157,7 +157,8 @@ void vtkTetraCoveringVoxelizer::CheckProperties()
   require(this->Shell == SHELL_NONE || this->Shell == SHELL_6 || this->Shell == SHELL_18 ||
       this->Shell == SHELL_26,
     "Shell is " + std::to_string(this->Shell) + "; it must be 0, 6, 18 or 26.");
-  require(!this->KeepInterior || this->GetOutputScalarType() != VTK_BIT,
+  require(
+    this->Shell == SHELL_NONE || !this->KeepInterior || this->GetOutputScalarType() != VTK_BIT,
     "KeepInterior needs two values and VTK_BIT has one. Set the scalar type to unsigned char.");
   require(isAxis(this->FixedRotation + 1) && std::isfinite(this->FixedRotation[0]),
     "The axis of FixedRotation must have a length, and all its numbers must be finite.");

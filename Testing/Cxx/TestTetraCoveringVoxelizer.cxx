@@ -249,6 +249,8 @@ bool TestParts(vtkPolyData* bunny)
   {
     const auto voxelizer = MakeVoxelizer(bunny, grid, backend);
     voxelizer->SetRotationModeToUniform();
+    voxelizer->SetDisplacementAmplitude(0.01);
+    voxelizer->SafeScaleToFitOn();
     const std::string name = "parts, " + VoxelSolidTests::NameOf(backend);
     good &= VoxelSolidTests::CheckParts(name, voxelizer, 4, 6);
     voxelizer->SetShell(18);

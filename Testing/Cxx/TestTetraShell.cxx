@@ -19,7 +19,6 @@
 
 using namespace VoxelReference;
 using namespace VoxelTestMeshes;
-using VoxelSolidTests::Backends;
 using VoxelTetraTests::MakeVoxelizer;
 using VoxelTetraTests::Voxelizer;
 
@@ -73,9 +72,10 @@ bool CheckShells(const std::string& mesh, vtkPolyData* input, vtkImageData* grid
   const auto voxelizer = MakeVoxelizer(input, grid, backend);
   voxelizer->Update();
   const Volume solid = OccupancyOf(voxelizer->GetOutput());
+  bool good = VoxelTetraTests::CheckSame(
+    mesh, voxelizer, CrossingParityReference(input, Grid::FromImage(grid)), input);
   voxelizer->SetForegroundValue(InteriorValue);
   voxelizer->SetShellValue(ShellValue);
-  bool good = true;
   for (const int neighbours : { 6, 18, 26 })
   {
     const std::string name =
@@ -110,6 +110,7 @@ bool TestErrors()
     { "KeepInterior",
       [](Voxelizer* v)
       {
+        v->SetShell(6);
         v->KeepInteriorOn();
         v->SetOutputScalarTypeToBit();
       } },
@@ -151,7 +152,7 @@ int TestTetraShell(int argc, char* argv[])
   }
   const int seed = 6;
   bool good = true;
-  for (const int backend : Backends)
+  for (const int backend : VoxelTetraTests::AvailableBackends())
   {
     good &= CheckShells("bunny_7k", bunny, VoxelSolidTests::MakeGridAround(bunny, 50), backend);
     good &= CheckShells("sphere beyond the grid", Sphere({ 20, 20, 20 }, 22.0),

@@ -338,6 +338,39 @@ bool TestVoxels(vtkPolyData* bunny)
   return good;
 }
 
+/// Holes are closed whatever is done to the mesh: no column leaks.
+bool TestHoles(vtkPolyData* bunny)
+{
+  const int seed = 9;
+  const Mesh holed = WithHoles(Unshared(bunny), seed, 40);
+  const auto grid = MakeCube(holed, 30, 30);
+  bool good = true;
+  for (const auto& settings : AllSettings())
+  {
+    for (const int backend : Backends)
+    {
+      const auto voxelizer = MakeVoxelizer(holed, grid, backend);
+      settings.Apply(voxelizer);
+      voxelizer->SafeScaleToFitOff();
+      voxelizer->CheckWatertightOff();
+      voxelizer->Update();
+      const Volume found = OccupancyOf(voxelizer->GetOutput());
+      std::size_t leaks = 0;
+      for (const Axis axis : AllAxes)
+      {
+        leaks += CountColumnsOpenAtEnd(found, axis);
+      }
+      if (leaks != 0 || found.CountNonZero() == 0)
+      {
+        std::cerr << "40 holes, seed 9, " << settings.Name << ", " << NameOf(backend) << ": "
+                  << leaks << " columns leak, " << found.CountNonZero() << " voxels\n";
+        good = false;
+      }
+    }
+  }
+  return good;
+}
+
 /// No variant leaves the grid, and one that is a ball fills it from side to side.
 bool TestFit(vtkPolyData* bunny)
 {
@@ -477,6 +510,7 @@ int TestTetraVariants(int argc, char* argv[])
   good &= TestTransforms();
   good &= TestDisplacements(bunny);
   good &= TestVoxels(bunny);
+  good &= TestHoles(bunny);
   good &= TestFit(bunny);
   good &= TestBatches(bunny);
   good &= TestSeed(bunny);

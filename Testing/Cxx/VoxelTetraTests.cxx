@@ -4,7 +4,9 @@
 #include "VoxelSolidTests.h"
 
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkVoxelContext.h>
 
 #include <algorithm>
 
@@ -20,6 +22,14 @@ vtkSmartPointer<Voxelizer> MakeVoxelizer(vtkPolyData* mesh, vtkImageData* grid, 
   voxelizer->SetReferenceImage(grid);
   voxelizer->SetBackend(backend);
   return voxelizer;
+}
+
+std::vector<int> AvailableBackends()
+{
+  vtkNew<vtkVoxelContext> context;
+  return context->SupportsCompute()
+    ? std::vector<int>{ vtkVoxelizer::BACKEND_COMPUTE, vtkVoxelizer::BACKEND_RASTER }
+    : std::vector<int>{ vtkVoxelizer::BACKEND_RASTER };
 }
 
 Volume XorOfTetrahedra(vtkPolyData* mesh, const Grid& grid)

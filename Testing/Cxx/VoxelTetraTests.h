@@ -12,6 +12,7 @@
 #include <vtkTetraCoveringVoxelizer.h>
 
 #include <string>
+#include <vector>
 
 class vtkImageData;
 
@@ -22,6 +23,9 @@ using Voxelizer = vtkTetraCoveringVoxelizer;
 
 /// A voxelizer of the mesh on the grid, not run yet.
 vtkSmartPointer<Voxelizer> MakeVoxelizer(vtkPolyData* mesh, vtkImageData* grid, int backend);
+
+/// Both, or Raster alone where OpenGL has no compute shaders.
+std::vector<int> AvailableBackends();
 
 /// The solid by its definition: the tetrahedra of all triangles of the fans, flipped one by one.
 VoxelReference::Volume XorOfTetrahedra(vtkPolyData* mesh, const VoxelReference::Grid& grid);
