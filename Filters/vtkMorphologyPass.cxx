@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -64,28 +63,6 @@ vtkMorphologyPass::Element vtkMorphologyPass::Element::Mirrored() const
     row = { -row.Y, -row.Z, -row.Last, -row.First };
   }
   return mirrored;
-}
-
-vtkMorphologyPass::Element vtkMorphologyPass::Element::Neighbours(int axes)
-{
-  if (axes == 3)
-  {
-    return { glm::ivec3(-1), glm::ivec3(1), {} };
-  }
-  Element element;
-  for (int z = -1; z <= 1; ++z)
-  {
-    for (int y = -1; y <= 1; ++y)
-    {
-      const int used = std::abs(y) + std::abs(z);
-      if (used <= axes)
-      {
-        const int reach = used < axes ? 1 : 0;
-        element.Rows.push_back({ y, z, -reach, reach });
-      }
-    }
-  }
-  return element;
 }
 
 vtkMorphologyPass::Element vtkMorphologyPass::Element::Repeated(int times) const

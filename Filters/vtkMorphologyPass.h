@@ -42,10 +42,6 @@ public:
     static constexpr int LongestRow = 31; ///< to either side
 
     Element Mirrored() const;
-    /// The voxel and those around it that are off on so many axes at once, at most: its 6, 18 or 26
-    /// neighbours for 1, 2 or 3.
-    static Element Neighbours(int axes);
-
     /// The same as so many times in a row; of a box only.
     Element Repeated(int times) const;
   };

@@ -8,14 +8,14 @@
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
-#include "vtkMorphologyPass.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSlicemap.h"
-#include "vtkSlicemapExpression.h"
 #include "vtkSlicemapImage.h"
+#include "vtkSlicemapKernel.h" // for vtkSlicemapTexture
+#include "vtkSlicemapQuadKernel.h"
 #include "vtkSolidComputePass.h"
 #include "vtkTetraAugmentation.h"
 #include "vtkTetraModel.h"
@@ -25,6 +25,8 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 #include "vtkVoxelMeshDisplacement.h"
+
+#include "vtkTetraShellGLSL.h"
 
 #include <algorithm>
 #include <array>
@@ -40,6 +42,8 @@ namespace
 using Augmentation = vtkTetraAugmentation;
 
 using Displacement = vtkVoxelMeshDisplacement;
+
+constexpr std::int64_t WordsPerQuad = 4;
 
 /// Kept with the context, since it holds buffers worth reusing.
 template <typename Kept, typename... Arguments>
@@ -324,12 +328,24 @@ bool vtkTetraCoveringVoxelizer::FillSolid(vtkTypeInt64 variant, vtkVoxelMesh& me
 
 void vtkTetraCoveringVoxelizer::FindShell(vtkSlicemap* solid, vtkSlicemap* shell)
 {
-  const auto context = this->GetContext()->GetRecord();
-  const int axes = this->Shell == SHELL_6 ? 1 : this->Shell == SHELL_18 ? 2 : 3;
-  const vtkMorphologyPass pass(context, vtkMorphologyPass::Border::Empty);
-  pass.Run(vtkMorphologyPass::Operation::Erode, vtkMorphologyPass::Element::Neighbours(axes), solid,
-    shell);
-  vtkSlicemapExpression::Join('-', 2).Evaluate(context, { solid, shell }, shell);
+  AllocateOrThrow(shell, solid->GetGrid());
+  const glm::ivec3 n = solid->GetGrid().GetDimensions();
+  const std::int64_t quadsPerRow = solid->GetWordsPerRow() / WordsPerQuad;
+  vtkVoxelGL::Program::Defines defines{ { "NEIGHBOURS", std::to_string(this->Shell) } };
+  if (quadsPerRow == 1)
+  {
+    defines["ONE_QUAD"] = "1";
+  }
+  const auto texture = vtkSlicemapTexture(solid);
+  const vtkSlicemapQuadKernel kernel("vtkTetraShell", vtkTetraShellGLSL, defines);
+  kernel.Run(this->GetContext()->GetRecord(), shell,
+    [&](vtkVoxelGL::Program& program)
+    {
+      texture.Bind(0);
+      program.Set("Solid", 0);
+      program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
+      program.Set("QuadsPerRow", static_cast<unsigned int>(quadsPerRow));
+    });
 }
 
 bool vtkTetraCoveringVoxelizer::Voxelize(
@@ -445,7 +461,6 @@ bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid
       [&](double done) { return this->ReportProgress((i + done) / count); });
     if (finished && this->Shell != SHELL_NONE)
     {
-      AllocateOrThrow(slot.Shell, grid);
       this->FindShell(slot.Solid, slot.Shell);
     }
     return finished;

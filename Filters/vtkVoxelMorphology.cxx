@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -27,6 +28,25 @@ constexpr std::int64_t LargestBox = VTK_INT_MAX / 4;
 Element MakeBox(const glm::ivec3& size)
 {
   return { -(size / 2), size - 1 - size / 2, {} };
+}
+
+/// The voxel and those around it that are off on so many axes at once, at most.
+Element MakeNeighbours(int axes)
+{
+  Element element;
+  for (int z = -1; z <= 1; ++z)
+  {
+    for (int y = -1; y <= 1; ++y)
+    {
+      const int used = std::abs(y) + std::abs(z);
+      if (used <= axes)
+      {
+        const int reach = used < axes ? 1 : 0;
+        element.Rows.push_back({ y, z, -reach, reach });
+      }
+    }
+  }
+  return element;
 }
 
 /// An ellipsoid with axes of so many voxels, as vtkImageDilateErode3D has it.
@@ -62,13 +82,13 @@ Element MakeElement(int kernel, const glm::ivec3& size)
   switch (kernel)
   {
     case vtkVoxelMorphology::KERNEL_FACES6:
-      return Element::Neighbours(1);
+      return MakeNeighbours(1);
     case vtkVoxelMorphology::KERNEL_EDGES18:
-      return Element::Neighbours(2);
+      return MakeNeighbours(2);
     case vtkVoxelMorphology::KERNEL_SPHERE:
       return MakeSphere(size);
     case vtkVoxelMorphology::KERNEL_CORNERS26:
-      return Element::Neighbours(3);
+      return MakeBox(glm::ivec3(3));
     default:
       return MakeBox(size);
   }
