@@ -23,6 +23,14 @@ glm::ivec3 GetAnchor(const vtkVoxelGrid& grid)
   }
   return anchor;
 }
+
+/// GCC 12 leaves the rounding out where it makes one vector of several numbers that go to float and
+/// back.
+float GetRounded(double x)
+{
+  volatile float rounded = static_cast<float>(x);
+  return rounded;
+}
 }
 
 vtkRasterMeshBinding::vtkRasterMeshBinding(
@@ -44,10 +52,15 @@ vtkRasterMeshBinding::vtkRasterMeshBinding(
 void vtkRasterMeshBinding::Bind(vtkVoxelGL::Program& program, unsigned int unit) const
 {
   this->Mesh.Bind(program, unit);
-  const glm::vec3 high(this->Anchor);
-  const glm::vec3 low(this->Anchor - glm::dvec3(high));
-  program.Set("AnchorHigh", std::array<float, 3>{ high.x, high.y, high.z });
-  program.Set("AnchorLow", std::array<float, 3>{ low.x, low.y, low.z });
+  std::array<float, 3> high;
+  std::array<float, 3> low;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    high[axis] = GetRounded(this->Anchor[axis]);
+    low[axis] = static_cast<float>(this->Anchor[axis] - high[axis]);
+  }
+  program.Set("AnchorHigh", high);
+  program.Set("AnchorLow", low);
   for (int i = 0; i < 3; ++i)
   {
     const glm::vec3 row(this->VoxelsFromWorld[i]);

@@ -58,6 +58,7 @@ bool TestClosedMeshes(vtkPolyData* bunny)
     { "knot as strips", AsStrips(knot) },
     { "tetrahedra seed 11", RandomTetrahedra(seed, 60, 60.0) },
     { "slivers seed 11", RandomSlivers(seed, 200, 60.0) },
+    { "knot far away", Moved(WithDoublePrecision(TorusKnot(1.0, 16, 96)), { 1e6, -2e6, 3e6 }) },
     { "nested shells", NestedShells({ 30, 30, 30 }, { 28.0, 20.3, 11.1, 4.0 }) },
   };
   bool good = true;
