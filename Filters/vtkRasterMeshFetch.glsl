@@ -3,7 +3,7 @@
 //
 // Coordinates are in voxels, in the order (u, v, depth), relative to an anchor: a voxel near the grid
 // whose world coordinates are AnchorHigh + AnchorLow. VoxelsFromWorld holds the three rows of the
-// linear map.
+// linear map. Follows vtkVoxelMeshDisplacement.glsl where DISPLACED is defined.
 
 uniform usamplerBuffer Triangles;
 uniform samplerBuffer Points;
@@ -21,6 +21,9 @@ vec3 fetchPoint(uint id)
   fromAnchor += texelFetch(PointsLow, int(id)).xyz - AnchorLow;
 #else
   fromAnchor -= AnchorLow;
+#endif
+#ifdef DISPLACED
+  fromAnchor += displacementOf(id);
 #endif
   return vec3(dot(VoxelsFromWorld[0], fromAnchor), dot(VoxelsFromWorld[1], fromAnchor),
     dot(VoxelsFromWorld[2], fromAnchor));

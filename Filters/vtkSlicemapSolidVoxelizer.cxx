@@ -15,7 +15,6 @@
 
 #include "vtkSolidVoteGLSL.h"
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -46,17 +45,6 @@ vtkSolidPass& GetPass(const vtkVoxelGL::Context& context, int backend)
     cached = pass;
   }
   return *static_cast<vtkSolidPass*>(cached.get());
-}
-
-int CheapestAxis(const vtkSolidPass& pass, const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid)
-{
-  const glm::dvec3 areas = mesh.EstimateProjectedAreas(grid.GetWorldToIndex());
-  std::array<double, 3> costs;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    costs[axis] = pass.EstimateCost(grid, axis, areas);
-  }
-  return static_cast<int>(std::min_element(costs.begin(), costs.end()) - costs.begin());
 }
 
 }
@@ -154,7 +142,7 @@ bool vtkSlicemapSolidVoxelizer::Voxelize(
   else
   {
     const int axis =
-      this->ColumnAxis == COLUMN_AXIS_AUTO ? CheapestAxis(pass, mesh, grid) : this->ColumnAxis;
+      this->ColumnAxis == COLUMN_AXIS_AUTO ? pass.GetCheapestAxis(mesh, grid) : this->ColumnAxis;
     const auto rule = this->FillRule == FILL_RULE_NON_ZERO ? vtkSolidPass::Rule::NonZero
                                                            : vtkSolidPass::Rule::Parity;
     if (!pass.FillSolid(mesh, slicemap, axis, rule,

@@ -70,8 +70,9 @@ struct vtkSolidComputePass::Box
   bool Ends = true;
 };
 
-vtkSolidComputePass::vtkSolidComputePass(vtkVoxelGL::Context context)
+vtkSolidComputePass::vtkSolidComputePass(vtkVoxelGL::Context context, Ties ties)
   : Context(std::move(context))
+  , OnSurface(ties)
   , Dispatch(this->Context)
 {
 }
@@ -132,6 +133,10 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
   job.Name = "vtkSolidCrossings";
   job.Sources = { vtkSolidCrossingsGLSL };
   job.Defines = defines;
+  if (this->OnSurface == Ties::UpperInside)
+  {
+    job.Defines["UPPER_INCLUDED"] = "1";
+  }
   job.Axes = axes;
   job.FirstStage = MostMissAllColumns(mesh, grid, axes) ? "SIEVE" : "";
   job.SetUniforms = [&](Program& program)

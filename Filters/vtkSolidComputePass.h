@@ -19,7 +19,7 @@
 class vtkSolidComputePass : public vtkSolidPass
 {
 public:
-  explicit vtkSolidComputePass(vtkVoxelGL::Context context);
+  explicit vtkSolidComputePass(vtkVoxelGL::Context context, Ties ties = Ties::LowerInside);
 
   bool FillSolid(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Rule rule,
     const Progress& progress) override;
@@ -40,6 +40,7 @@ private:
   void Scan(vtkSlicemap* target, int axis, const Box& box);
 
   vtkVoxelGL::Context Context;
+  Ties OnSurface;
   vtkTriangleDispatch Dispatch;
   vtkVoxelGL::Buffer ColumnCarries;
   vtkVoxelGL::Buffer Counters;

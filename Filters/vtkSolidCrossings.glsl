@@ -12,6 +12,7 @@
 //              single precision on the safe side; the stage with REST defined does them. Pays where
 //              most triangles lie between the columns.
 // WINDING      defined when crossings are counted with their sign instead of toggled.
+// UPPER_INCLUDED  defined when solids are half open at their lower ends, see below.
 //
 // SingleMargin how far index coordinates in single precision may be off
 //
@@ -31,6 +32,10 @@
 // edge agree, and the crossings of a closed mesh are even in number in every column. The depth in a
 // column lies between the depths of these two edges in the row, so that it is the triangle's even where
 // the triangle is seen edge-on.
+//
+// With UPPER_INCLUDED all of this is mirrored along each axis, bit for bit: a row crosses an edge with one
+// end point before it and the other at or behind it, of the covered columns the upper bound is included,
+// and a voxel at a crossing does not lie behind it.
 
 uniform ivec3 First;
 uniform ivec3 End;
@@ -123,20 +128,38 @@ Outline outlineOf(StoredTriangle triangle)
   return t;
 }
 
+// The first voxel of an interval that begins at x, within bounds; so too the first one behind it.
+int firstFrom(double x, int low, int high)
+{
+#ifdef UPPER_INCLUDED
+  return boundedAfter(x, low, high);
+#else
+  return boundedCeil(x, low, high);
+#endif
+}
+
 // Where the edges cross row v, and the columns between, within the given bounds.
 Span spanOfRow(Outline t, int v, int first, int end)
 {
   double y = double(v);
+  // Edges are followed from the end that may lie in the row, where they are exact.
+#ifdef UPPER_INCLUDED
+  bool isLower = y <= t.Middle.y;
+  dvec3 longStart = t.Highest;
+  dvec3 start = isLower ? t.Middle : t.Highest;
+#else
   bool isLower = y < t.Middle.y;
+  dvec3 longStart = t.Lowest;
   dvec3 start = isLower ? t.Lowest : t.Middle;
+#endif
   dvec2 slope = isLower ? t.LowerSlope : t.UpperSlope;
-  precise dvec2 along = t.Lowest.xz + (y - t.Lowest.y) * t.LongSlope;
+  precise dvec2 along = longStart.xz + (y - longStart.y) * t.LongSlope;
   precise dvec2 across = start.xz + (y - start.y) * slope;
   bool isRight = along.x < across.x;
   double width = across.x - along.x;
   Span span;
-  span.First = boundedCeil(isRight ? along.x : across.x, first, end);
-  span.End = boundedCeil(isRight ? across.x : along.x, first, end);
+  span.First = firstFrom(isRight ? along.x : across.x, first, end);
+  span.End = firstFrom(isRight ? across.x : along.x, first, end);
   span.Direction = isRight ? t.Turn : -t.Turn;
   span.Start = along.x;
   span.Depth = along.y;
@@ -150,7 +173,7 @@ void crossColumn(Span span, int u, int v)
 {
   double depth = span.Depth + (double(u) - span.Start) * span.Gradient;
   depth = bounded(depth, span.Nearest, span.Farthest);
-  int d = boundedCeil(depth, First.z - 1, End.z);
+  int d = firstFrom(depth, First.z - 1, End.z);
   d = Begins ? max(d, First.z) : d;
   if (d < First.z)
   {
@@ -189,8 +212,8 @@ void rectangleOf(Outline t, out ivec2 first, out ivec2 end)
   float right = ceil(max(us.x, max(us.y, us.z))) + 1.0;
   first.x = int(clamp(left, float(First.x), float(End.x)));
   end.x = int(clamp(right, float(First.x), float(End.x)));
-  first.y = boundedCeil(t.Lowest.y, First.y, End.y);
-  end.y = boundedCeil(t.Highest.y, First.y, End.y);
+  first.y = firstFrom(t.Lowest.y, First.y, End.y);
+  end.y = firstFrom(t.Highest.y, First.y, End.y);
 }
 
 #if defined(CUT) || defined(TILES) || defined(UNCUT)

@@ -4,7 +4,9 @@
 
 #include "vtkSlicemap.h"
 #include "vtkVoxelGrid.h"
+#include "vtkVoxelMesh.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 void vtkSolidPass::StartColumnEnds(vtkSlicemap* target, const vtkColumnAxes& axes)
@@ -22,4 +24,15 @@ void vtkSolidPass::StartColumnEnds(vtkSlicemap* target, const vtkColumnAxes& axe
     throw std::runtime_error("There is no room for the ends of the columns.");
   }
   this->ColumnEnds->GetBuffer().Fill(0);
+}
+
+int vtkSolidPass::GetCheapestAxis(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid) const
+{
+  const glm::dvec3 areas = mesh.EstimateProjectedAreas(grid.GetWorldToIndex());
+  std::array<double, 3> costs;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    costs[axis] = this->EstimateCost(grid, axis, areas);
+  }
+  return static_cast<int>(std::min_element(costs.begin(), costs.end()) - costs.begin());
 }

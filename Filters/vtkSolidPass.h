@@ -63,6 +63,14 @@ public:
     Clear
   };
 
+  /// Which of the two voxel centres at the ends of a solid along an axis, if they lie on the
+  /// surface, are inside.
+  enum class Ties
+  {
+    LowerInside,
+    UpperInside
+  };
+
   virtual ~vtkSolidPass() = default;
 
   /// All words of `target`: the voxels whose centres are inside by `rule`, seen along `axis`.
@@ -80,6 +88,8 @@ public:
   /// What a column axis costs, in nanoseconds of a CPU that runs OpenGL in software; only compared.
   virtual double EstimateCost(
     const vtkVoxelGrid& grid, int axis, const glm::dvec3& projectedAreas) const = 0;
+
+  int GetCheapestAxis(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid) const;
 
 protected:
   /// Column ends of a run on `target` along `axes`, all zero.

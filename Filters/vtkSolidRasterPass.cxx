@@ -3,6 +3,7 @@
 #include "vtkSolidRasterPass.h"
 
 #include "vtkNew.h"
+#include "vtkRasterMeshBinding.h"
 #include "vtkSlicemap.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkVoxelGrid.h"
@@ -35,10 +36,6 @@ constexpr int WordBits = 32;
 // Eight targets of this size take 128 MiB.
 constexpr int LargestTile = 1024;
 
-// The anchor is a voxel at a multiple of this, so that parts of a grid see the same numbers as the
-// whole.
-constexpr int AnchorStep = 4096;
-
 // Units of textures.
 constexpr unsigned int ColumnsUnit = 0;
 constexpr unsigned int MaskUnit = 1;
@@ -57,17 +54,6 @@ int PowerOfTwoFrom(int n)
 int CeilDivide(int n, int divisor)
 {
   return (n + divisor - 1) / divisor;
-}
-
-glm::ivec3 GetAnchor(const vtkVoxelGrid& grid)
-{
-  glm::ivec3 anchor = grid.GetFirst();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int remainder = (anchor[axis] % AnchorStep + AnchorStep) % AnchorStep;
-    anchor[axis] -= remainder;
-  }
-  return anchor;
 }
 
 vtkVoxelGL::Texture MakeMaskTable(const vtkVoxelGL::Context& context)
@@ -242,10 +228,7 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   const bool touched = content == Content::Touched;
   Program::Defines defines{ { "TARGETS", std::to_string(targets.Count) }, { "REAL", "float" },
     { "REAL2", "vec2" }, { "REAL3", "vec3" } };
-  if (mesh.HasLowPart())
-  {
-    defines["POINTS_ARE_DOUBLE"] = "1";
-  }
+  defines.merge(mesh.GetDefines());
   if (content == Content::Winding)
   {
     defines["WINDING"] = "1";
@@ -261,29 +244,12 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
     vtkVoxelGetProgram(this->Context, touched ? "vtkTouchedRaster" : "vtkSolidRaster", defines,
       { { GL_VERTEX_SHADER, vertex }, { GL_FRAGMENT_SHADER, fragment } });
   program.Use();
-  mesh.Bind(program, MeshUnit);
+  const vtkRasterMeshBinding binding(mesh, grid, tile.Axes);
+  binding.Bind(program, MeshUnit);
   targets.Masks.Bind(MaskUnit);
   program.Set("MaskTable", int(MaskUnit));
 
-  const glm::ivec3 anchor = GetAnchor(grid);
-  const glm::dvec3 world(grid.GetIndexToWorld() * glm::dvec4(glm::dvec3(anchor), 1.0));
-  const glm::vec3 high(world);
-  const glm::vec3 low(world - glm::dvec3(high));
-  program.Set("AnchorHigh", std::array<float, 3>{ high.x, high.y, high.z });
-  program.Set("AnchorLow", std::array<float, 3>{ low.x, low.y, low.z });
-  const glm::dmat4 voxelsFromWorld = grid.GetWorldToIndex();
-  const int order[3] = { tile.Axes.U, tile.Axes.V, tile.Axes.Depth };
-  double largest = 0.0;
-  for (int i = 0; i < 3; ++i)
-  {
-    const glm::vec3 row(
-      voxelsFromWorld[0][order[i]], voxelsFromWorld[1][order[i]], voxelsFromWorld[2][order[i]]);
-    const std::string name = "VoxelsFromWorld[" + std::to_string(i) + "]";
-    program.Set(name.c_str(), std::array<float, 3>{ row.x, row.y, row.z });
-    const glm::dvec3 reach = glm::dvec3(mesh.GetLargestCoordinate()) + glm::abs(world);
-    largest = std::max(largest, glm::dot(glm::abs(glm::dvec3(row)), reach));
-  }
-  const glm::ivec3 offset = tile.Axes(grid.GetFirst() - anchor);
+  const glm::ivec3& offset = binding.GetFirstVoxel();
   program.Set("TileFirst", std::array<int, 2>{ offset.x + tile.First.x, offset.y + tile.First.y });
   program.Set("TileColumns", std::array<int, 2>{ tile.Columns.x, tile.Columns.y });
   program.Set("TileSize", std::array<int, 2>{ targets.Size.x, targets.Size.y });
@@ -293,8 +259,8 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
 
   constexpr double smallestMargin = 2e-3;
   constexpr double roundings = 16.0;
-  const double margin =
-    std::max(smallestMargin, roundings * std::numeric_limits<float>::epsilon() * largest);
+  const double margin = std::max(
+    smallestMargin, roundings * std::numeric_limits<float>::epsilon() * binding.GetLargestTerms());
   program.Set("HalfWidth", static_cast<float>(0.5 + margin));
 
   vtkVoxelGL::VertexArray vertices(this->Context);

@@ -7,6 +7,7 @@
 #include "vtkVoxelMesh.h"
 
 #include "vtkSlicemapLayoutGLSL.h"
+#include "vtkVoxelMeshDisplacementGLSL.h"
 #include "vtkVoxelMeshFetchGLSL.h"
 #include "vtkVoxelTileQueueGLSL.h"
 #include "vtkVoxelTriangleRangeGLSL.h"
@@ -124,15 +125,11 @@ vtkTriangleDispatch::vtkTriangleDispatch(vtkVoxelGL::Context context)
 Program::Defines vtkTriangleDispatch::GetMeshDefines(
   const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const vtkColumnAxes& axes)
 {
-  Program::Defines defines;
+  Program::Defines defines = mesh.GetDefines();
   const std::string aligned = GetAlignedAxes(grid.GetWorldToIndex(), axes);
   if (!aligned.empty())
   {
     defines["AXES_ALIGNED"] = aligned;
-  }
-  if (mesh.HasLowPart())
-  {
-    defines["POINTS_ARE_DOUBLE"] = "1";
   }
   return defines;
 }
@@ -168,8 +165,8 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   }
   queue.BindBase(GL_SHADER_STORAGE_BUFFER, QueueBinding);
 
-  std::vector<std::string> sources{ vtkSlicemapLayoutGLSL, vtkVoxelMeshFetchGLSL,
-    vtkVoxelTriangleRangeGLSL, vtkVoxelTileQueueGLSL };
+  std::vector<std::string> sources{ vtkSlicemapLayoutGLSL, vtkVoxelMeshDisplacementGLSL,
+    vtkVoxelMeshFetchGLSL, vtkVoxelTriangleRangeGLSL, vtkVoxelTileQueueGLSL };
   sources.insert(sources.end(), job.Sources.begin(), job.Sources.end());
   auto defines = job.Defines;
   defines.merge(GetMeshDefines(mesh, grid, job.Axes));

@@ -16,6 +16,7 @@
 #include "vtkTriangleFilter.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkVoxelMeshDisplacement.h"
 
 #include <algorithm>
 #include <atomic>
@@ -521,6 +522,25 @@ glm::dvec3 vtkVoxelMesh::EstimateProjectedAreas(const glm::dmat4& worldToIndex) 
   return this->AreaOfSample * areas;
 }
 
+double vtkVoxelMesh::GetLargestCoordinate() const
+{
+  return this->LargestCoordinate + (this->Displacement ? this->Displacement->GetLargest() : 0.0);
+}
+
+vtkVoxelGL::Program::Defines vtkVoxelMesh::GetDefines() const
+{
+  vtkVoxelGL::Program::Defines defines;
+  if (this->LowPoints)
+  {
+    defines["POINTS_ARE_DOUBLE"] = "1";
+  }
+  if (this->Displacement)
+  {
+    defines.merge(this->Displacement->GetDefines());
+  }
+  return defines;
+}
+
 void vtkVoxelMesh::Bind(vtkVoxelGL::Program& program, unsigned int unit) const
 {
   this->TrianglesTexture.Bind(unit);
@@ -531,6 +551,10 @@ void vtkVoxelMesh::Bind(vtkVoxelGL::Program& program, unsigned int unit) const
   {
     this->PointsLowTexture.Bind(unit + 2);
     program.Set("PointsLow", static_cast<int>(unit + 2));
+  }
+  if (this->Displacement)
+  {
+    this->Displacement->Bind(program, unit + 3);
   }
   program.Set("FirstTriangle", 0u);
   program.Set("NumberOfTriangles", this->NumberOfTriangles);

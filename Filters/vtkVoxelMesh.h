@@ -25,6 +25,7 @@
 class vtkCompositeDataSet;
 class vtkDataObject;
 class vtkPolyData;
+class vtkVoxelMeshDisplacement;
 
 class vtkVoxelMesh
 {
@@ -55,9 +56,17 @@ public:
       visit) const;
 
   std::uint32_t GetNumberOfTriangles() const { return this->NumberOfTriangles; }
-  bool HasLowPart() const { return this->LowPoints; }
 
-  /// Binds the buffer textures to units `unit` to `unit` + 2 and sets the uniforms of
+  /// Moves the points by this from now on, or no longer; it must outlive its use.
+  void SetDisplacement(const vtkVoxelMeshDisplacement* displacement)
+  {
+    this->Displacement = displacement;
+  }
+
+  /// Defines of the shaders that fetch triangles.
+  vtkVoxelGL::Program::Defines GetDefines() const;
+
+  /// Binds the buffer textures to units `unit` to `unit` + 5 and sets the uniforms of
   /// vtkVoxelMeshFetch.glsl, or of its counterpart in single precision; the program must be in use.
   void Bind(vtkVoxelGL::Program& program, unsigned int unit) const;
 
@@ -70,7 +79,7 @@ public:
   double EstimateLargestArea(const glm::dmat4& worldToIndex) const;
 
   /// Largest coordinate, in world units and without sign.
-  double GetLargestCoordinate() const { return this->LargestCoordinate; }
+  double GetLargestCoordinate() const;
 
   /// How often triangles were uploaded.
   int GetNumberOfUploads() const { return this->NumberOfUploads; }
@@ -110,6 +119,7 @@ private:
   std::uint32_t NumberOfTriangles = 0;
   bool LowPoints = false;
   double LargestCoordinate = 0.0;
+  const vtkVoxelMeshDisplacement* Displacement = nullptr;
   int NumberOfUploads = 0;
 };
 

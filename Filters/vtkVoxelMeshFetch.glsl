@@ -4,6 +4,8 @@
 // Points      RGB32F buffer texture, world coordinates rounded to float
 // PointsLow   RGB32F buffer texture, what the rounding took away; with POINTS_ARE_DOUBLE only
 //
+// Follows vtkVoxelMeshDisplacement.glsl where DISPLACED is defined.
+//
 // IndexFromWorld holds the three rows (a, b, c, d) of the map a * x + b * y + c * z + d from world
 // coordinates to index coordinates, in the order of the axes that the including shader works in.
 // AXES_ALIGNED is the swizzle of these axes, such as xzy, where the grid lies along the world's axes: a
@@ -17,12 +19,15 @@ uniform samplerBuffer PointsLow;
 #endif
 uniform dvec4 IndexFromWorld[3];
 
-// A point as it is stored, and the rest that rounding took away.
+// A point as it is stored, the rest that rounding took away, and by how much it is moved.
 struct StoredPoint
 {
   vec3 High;
 #ifdef POINTS_ARE_DOUBLE
   vec3 Low;
+#endif
+#ifdef DISPLACED
+  vec3 Displacement;
 #endif
 };
 
@@ -40,6 +45,9 @@ StoredPoint fetchPoint(uint id)
 #ifdef POINTS_ARE_DOUBLE
   point.Low = texelFetch(PointsLow, int(id)).xyz;
 #endif
+#ifdef DISPLACED
+  point.Displacement = displacementOf(id);
+#endif
   return point;
 }
 
@@ -54,6 +62,9 @@ dvec3 indexOf(StoredPoint point)
   precise dvec3 world = dvec3(point.High);
 #ifdef POINTS_ARE_DOUBLE
   world += dvec3(point.Low);
+#endif
+#ifdef DISPLACED
+  world += dvec3(point.Displacement);
 #endif
 #ifdef AXES_ALIGNED
   dvec3 scale = dvec3(IndexFromWorld[0].x, IndexFromWorld[1].x, IndexFromWorld[2].x);
@@ -73,14 +84,18 @@ dvec3 indexOf(StoredPoint point)
 // The same in single precision, within SingleMargin.
 vec3 roughIndexOf(StoredPoint point)
 {
+  vec3 world = point.High;
+#ifdef DISPLACED
+  world += point.Displacement;
+#endif
 #ifdef AXES_ALIGNED
   vec3 scale = vec3(IndexFromWorld[0].x, IndexFromWorld[1].x, IndexFromWorld[2].x);
   vec3 offset = vec3(IndexFromWorld[0].w, IndexFromWorld[1].w, IndexFromWorld[2].w);
-  return point.High.AXES_ALIGNED * scale + offset;
+  return world.AXES_ALIGNED * scale + offset;
 #else
-  vec4 world = vec4(point.High, 1.0);
-  return vec3(dot(vec4(IndexFromWorld[0]), world), dot(vec4(IndexFromWorld[1]), world),
-    dot(vec4(IndexFromWorld[2]), world));
+  vec4 w = vec4(world, 1.0);
+  return vec3(dot(vec4(IndexFromWorld[0]), w), dot(vec4(IndexFromWorld[1]), w),
+    dot(vec4(IndexFromWorld[2]), w));
 #endif
 }
 
@@ -108,4 +123,12 @@ int boundedCeil(double x, int low, int high)
   double within = bounded(x, double(low), double(high));
   int truncated = int(within);
   return truncated + (double(truncated) < within ? 1 : 0);
+}
+
+// The smallest integer that is greater than x, within bounds.
+int boundedAfter(double x, int low, int high)
+{
+  double within = bounded(x, double(low) - 0.5lf, double(high));
+  int truncated = int(within);
+  return min(truncated + (double(truncated) <= within ? 1 : 0), high);
 }

@@ -423,6 +423,24 @@ bool vtkSlicemap::Complement()
   return this->Combine(vtkSlicemapExpression::Complement(), nullptr);
 }
 
+void vtkSlicemap::CopyVoxels(vtkSlicemap* source, const std::array<int, 3>& offset)
+{
+  const vtkSlicemapKernel kernel("vtkSlicemapShift", vtkSlicemapShiftGLSL);
+  const auto texture = vtkSlicemapTexture(source);
+  const glm::ivec3 n = this->GetGrid().GetDimensions();
+  const glm::ivec3 sourceSize = source->GetGrid().GetDimensions();
+  kernel.Run(this->GetContext()->GetRecord(), this,
+    [&](vtkVoxelGL::Program& program)
+    {
+      texture.Bind(0);
+      program.Set("Source", 0);
+      program.Set("SourceSize", std::array<int, 3>{ sourceSize.x, sourceSize.y, sourceSize.z });
+      program.Set("SourceWordsPerRow", static_cast<unsigned int>(source->GetWordsPerRow()));
+      program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
+      program.Set("Offset", offset);
+    });
+}
+
 bool vtkSlicemap::Shift(int dx, int dy, int dz)
 {
   vtkVoxelContext::Scope scope(this->GetContext());
@@ -437,19 +455,9 @@ bool vtkSlicemap::Shift(int dx, int dy, int dz)
   {
     return false;
   }
-  const vtkSlicemapKernel kernel("vtkSlicemapShift", vtkSlicemapShiftGLSL);
   try
   {
-    const auto source = vtkSlicemapTexture(this);
-    const glm::ivec3 n = this->GetGrid().GetDimensions();
-    kernel.Run(this->GetContext()->GetRecord(), result,
-      [&](vtkVoxelGL::Program& program)
-      {
-        source.Bind(0);
-        program.Set("Source", 0);
-        program.Set("Size", std::array<int, 3>{ n.x, n.y, n.z });
-        program.Set("Offset", std::array<int, 3>{ dx, dy, dz });
-      });
+    result->CopyVoxels(this, { dx, dy, dz });
   }
   catch (const std::runtime_error& error)
   {

@@ -30,6 +30,7 @@
 #include "vtkObject.h"
 #include "vtkVoxelizationModule.h" // for export macro
 
+#include <array>      // for offsets
 #include <cstdint>    // for 64-bit sizes
 #include <functional> // for Read
 #include <memory>     // for the implementation
@@ -172,9 +173,11 @@ public:
    * For the passes of this module. Allocate gives an uninitialised buffer for `grid`, keeping the
    * present one where it fits, and returns false after one error when it can't; Read maps the words
    * for reading while `consume` runs and counts as one read-back, CountReadBack counts what a pass
-   * reads otherwise; Swap exchanges the bits.
+   * reads otherwise; Swap exchanges the bits; CopyVoxels fills this one, which is allocated, with
+   * the voxels of `source`, moved by `offset`, and throws std::runtime_error.
    */
   bool Allocate(const vtkVoxelGrid& grid);
+  void CopyVoxels(vtkSlicemap* source, const std::array<int, 3>& offset);
   bool Read(const std::function<void(const std::uint32_t* words)>& consume);
   static void CountReadBack();
   void Swap(vtkSlicemap* other);

@@ -144,14 +144,48 @@ void Expand(
       });
     return;
   }
+  Expand(words, grid, foregroundValue, static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0));
+}
+
+void Expand(
+  const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t rows = std::int64_t(n.y) * n.z;
+  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
   const ByteTable table = MakeValueTable(foregroundValue);
-  unsigned char* out = static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0);
   vtkSMPTools::For(0, rows,
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType row = begin; row < end; ++row)
       {
         ExpandRow(words + row * wordsPerRow, n.x, table, out + std::int64_t(row) * n.x);
+      }
+    });
+}
+
+void Overlay(const std::uint32_t* words, const vtkVoxelGrid& grid, int value, unsigned char* out)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t rows = std::int64_t(n.y) * n.z;
+  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
+  vtkSMPTools::For(0, rows,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType row = begin; row < end; ++row)
+      {
+        for (int x = 0; x < n.x; x += WordBits)
+        {
+          unsigned char* voxel = out + std::int64_t(row) * n.x + x;
+          for (std::uint32_t word = words[row * wordsPerRow + x / WordBits]; word != 0;
+               word >>= 1, ++voxel)
+          {
+            if (word & 1u)
+            {
+              *voxel = static_cast<unsigned char>(value);
+            }
+          }
+        }
       }
     });
 }

@@ -47,6 +47,17 @@ void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, vtkDataArray* array);
 
 /**
+ * Bits to bytes at `out`, one a voxel.
+ */
+void Expand(
+  const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out);
+
+/**
+ * The value of the voxels whose bits are set; other bytes stay as they are.
+ */
+void Overlay(const std::uint32_t* words, const vtkVoxelGrid& grid, int value, unsigned char* out);
+
+/**
  * Number of set bits.
  */
 std::int64_t Count(const std::uint32_t* words, std::int64_t numberOfWords);

@@ -1,18 +1,23 @@
-// Kernel of vtkSlicemap::Shift. See vtkSlicemapKernel.h.
+// Kernel of vtkSlicemap::CopyVoxels and Shift. See vtkSlicemapKernel.h.
 //
-// Source  the words of the slicemap, four a texel
-// Size    number of voxels along x, y and z
-// Offset  whole voxels by which the set ones are moved
+// Source             the words of a slicemap, four a texel
+// SourceSize         its number of voxels along x, y and z
+// SourceWordsPerRow  its number of words of a row
+// Size               number of voxels of the result
+// Offset             whole voxels by which the set ones are moved
 
 uniform usamplerBuffer Source;
+uniform ivec3 SourceSize;
+uniform uint SourceWordsPerRow;
 uniform ivec3 Size;
 uniform ivec3 Offset;
 
 uint wordOrNothing(ivec3 word)
 {
-  bool inside = word.x >= 0 && word.x < int(WordsPerRow) && word.y >= 0 && word.y < Size.y &&
-    word.z >= 0 && word.z < Size.z;
-  return inside ? sourceWord(Source, uvec3(word)) : 0u;
+  bool inside = word.x >= 0 && word.x < int(SourceWordsPerRow) && word.y >= 0 &&
+    word.y < SourceSize.y && word.z >= 0 && word.z < SourceSize.z;
+  int index = (word.z * SourceSize.y + word.y) * int(SourceWordsPerRow) + word.x;
+  return inside ? texelFetch(Source, index / 4)[index % 4] : 0u;
 }
 
 // The 32 voxels from (x, y, z) on, where x may be any number.

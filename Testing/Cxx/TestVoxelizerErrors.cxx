@@ -1,5 +1,6 @@
 // Proves that bad input gives exactly one error that says what is wrong, an empty output, no crash
 // and no work, and that the same filter works afterwards; and that what is merely odd is no error.
+// All of it with the voxelizers of solids.
 
 #include "VoxelSolidTests.h"
 #include "VoxelTestMeshes.h"
@@ -11,6 +12,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkTetraCoveringVoxelizer.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -23,8 +25,14 @@ using namespace VoxelTestMeshes;
 
 namespace
 {
-using Voxelizer = vtkSlicemapSolidVoxelizer;
+using Voxelizer = vtkVoxelizer;
 using Change = std::function<void(Voxelizer*)>;
+
+std::array<vtkSmartPointer<Voxelizer>, 2> MakeVoxelizers()
+{
+  return { vtkSmartPointer<vtkSlicemapSolidVoxelizer>::New(),
+    vtkSmartPointer<vtkTetraCoveringVoxelizer>::New() };
+}
 
 Mesh GoodMesh()
 {
@@ -58,10 +66,10 @@ Mesh WithWrongId()
   return mesh;
 }
 
-void TestError(
-  VoxelTestChecks& checks, const std::string& name, const Change& spoil, const std::string& says)
+void TestError(VoxelTestChecks& checks, const std::string& error, const Change& spoil,
+  const std::string& says, Voxelizer* voxelizer)
 {
-  vtkNew<Voxelizer> voxelizer;
+  const std::string name = std::string(voxelizer->GetClassName()) + ": " + error;
   voxelizer->SetInputData(GoodMesh());
   voxelizer->SetResolution(8);
   spoil(voxelizer);
@@ -87,6 +95,15 @@ void TestError(
   voxelizer->SetOutputWholeExtent(0, -1, 0, -1, 0, -1);
   voxelizer->Update();
   checks.Equal(name + ": voxels afterwards", voxelizer->GetNumberOfFilledVoxels(), 512);
+}
+
+void TestError(
+  VoxelTestChecks& checks, const std::string& name, const Change& spoil, const std::string& says)
+{
+  for (const auto& voxelizer : MakeVoxelizers())
+  {
+    TestError(checks, name, spoil, says, voxelizer);
+  }
 }
 }
 
@@ -184,8 +201,8 @@ int TestVoxelizerErrors(int argc, char* argv[])
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   checks.Check("refusing large grids takes no time", elapsed.count() < 2.0);
 
+  for (const auto& voxelizer : MakeVoxelizers())
   {
-    vtkNew<Voxelizer> voxelizer;
     VoxelTestObserver observer(voxelizer);
     voxelizer->SetOutputScalarType(VTK_FLOAT);
     checks.Equal("errors of a wrong scalar type", observer.Errors.size(), std::size_t(1));
@@ -199,15 +216,17 @@ int TestVoxelizerErrors(int argc, char* argv[])
   for (const Mesh& odd :
     { Appended({ GoodMesh(), GoodMesh() }), WithDegenerates(GoodMesh(), 1, 20) })
   {
-    vtkNew<Voxelizer> voxelizer;
-    VoxelTestObserver observer(voxelizer);
-    voxelizer->SetInputData(odd);
-    voxelizer->SetResolution(8);
-    voxelizer->Update();
-    checks.Equal("errors and warnings of odd triangles",
-      observer.Errors.size() + observer.Warnings.size(), std::size_t(0));
-    checks.Check("odd triangles give all or nothing",
-      voxelizer->GetNumberOfFilledVoxels() == 0 || voxelizer->GetNumberOfFilledVoxels() == 512);
+    for (const auto& voxelizer : MakeVoxelizers())
+    {
+      VoxelTestObserver observer(voxelizer);
+      voxelizer->SetInputData(odd);
+      voxelizer->SetResolution(8);
+      voxelizer->Update();
+      checks.Equal("errors and warnings of odd triangles",
+        observer.Errors.size() + observer.Warnings.size(), std::size_t(0));
+      checks.Check("odd triangles give all or nothing",
+        voxelizer->GetNumberOfFilledVoxels() == 0 || voxelizer->GetNumberOfFilledVoxels() == 512);
+    }
   }
 
   // A hole: one warning with the number of edges.
@@ -215,22 +234,31 @@ int TestVoxelizerErrors(int argc, char* argv[])
   const Mesh holed = WithHoles(bunny, 4, 3);
   for (const int backend : Backends)
   {
-    vtkNew<Voxelizer> voxelizer;
-    VoxelTestObserver observer(voxelizer);
-    voxelizer->SetInputData(holed);
-    voxelizer->SetResolution(100);
-    voxelizer->SetBackend(backend);
-    voxelizer->Update();
-    checks.Equal(
-      NameOf(backend) + ": warnings of a hole", observer.Warnings.size(), std::size_t(1));
-    const std::string says = std::to_string(CountOpenEdges(holed)) + " open";
-    checks.Check(NameOf(backend) + ": the warning names " + says,
-      !observer.Warnings.empty() && observer.Warnings[0].find(says) != std::string::npos);
-    checks.Check(NameOf(backend) + ": columns leak", voxelizer->GetNumberOfLeakingColumns() > 0);
-    voxelizer->CheckWatertightOff();
-    voxelizer->Update();
-    checks.Equal(
-      NameOf(backend) + ": warnings when not asked", observer.Warnings.size(), std::size_t(1));
+    for (const auto& voxelizer : MakeVoxelizers())
+    {
+      const std::string name = voxelizer->GetClassName() + (", " + NameOf(backend));
+      VoxelTestObserver observer(voxelizer);
+      voxelizer->SetInputData(holed);
+      voxelizer->SetResolution(100);
+      voxelizer->SetBackend(backend);
+      voxelizer->Update();
+      checks.Equal(name + ": warnings of a hole", observer.Warnings.size(), std::size_t(1));
+      const int open = CountOpenEdges(holed);
+      const std::string says = std::to_string(open) + " open";
+      checks.Check(name + ": the warning names " + says,
+        !observer.Warnings.empty() && observer.Warnings[0].find(says) != std::string::npos);
+      if (auto* solid = vtkSlicemapSolidVoxelizer::SafeDownCast(voxelizer))
+      {
+        checks.Check(name + ": columns leak", solid->GetNumberOfLeakingColumns() > 0);
+      }
+      if (auto* tetrahedra = vtkTetraCoveringVoxelizer::SafeDownCast(voxelizer))
+      {
+        checks.Equal(name + ": open edges", tetrahedra->GetNumberOfOpenEdges(), vtkIdType(open));
+      }
+      voxelizer->CheckWatertightOff();
+      voxelizer->Update();
+      checks.Equal(name + ": warnings when not asked", observer.Warnings.size(), std::size_t(1));
+    }
   }
   return checks.Passed() ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -317,6 +317,45 @@ Mesh StarPrism(const Vector& centre, double radius, double height, int spikes)
 }
 
 //------------------------------------------------------------------------------------------------
+Mesh HoledPrism(const Vector& centre, double radius, double height, bool triangulated)
+{
+  std::vector<Vector> points;
+  for (const double z : { -0.5 * height, 0.5 * height })
+  {
+    for (const double reach : { radius, 0.45 * radius })
+    {
+      for (const auto& [x, y] : { std::pair{ -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } })
+      {
+        points.push_back({ centre[0] + x * reach, centre[1] + y * reach, centre[2] + z });
+      }
+    }
+  }
+  // Points 0 to 3 are the rim of the lower end and 4 to 7 that of its hole, 8 to 15 of the upper
+  // one.
+  Polygons polygons;
+  if (!triangulated)
+  {
+    polygons.push_back({ 0, 4, 5, 6, 7, 4, 0, 3, 2, 1 });
+    polygons.push_back({ 8, 9, 10, 11, 8, 12, 15, 14, 13, 12 });
+  }
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    const vtkIdType next = (i + 1) % 4;
+    polygons.push_back({ i, next, next + 8, i + 8 });
+    polygons.push_back({ i + 4, i + 12, next + 12, next + 4 });
+    if (triangulated)
+    {
+      polygons.push_back({ i, i + 4, next });
+      polygons.push_back({ i + 4, next + 4, next });
+      polygons.push_back({ i + 8, next + 8, i + 12 });
+      polygons.push_back({ i + 12, next + 8, next + 12 });
+    }
+  }
+  const Mesh prism = Rotated(MakeMesh(points, polygons));
+  return triangulated ? Triangulated(prism) : prism;
+}
+
+//------------------------------------------------------------------------------------------------
 Mesh NestedShells(const Vector& centre, const std::vector<double>& radii)
 {
   std::vector<Mesh> shells;

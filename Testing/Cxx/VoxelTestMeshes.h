@@ -41,6 +41,9 @@ Mesh Sphere(const Vector& centre, double radius, int resolution = 24);
 Mesh TorusKnot(double size, int around, int along); ///< 2 * around * along triangles
 /// A prism over a star with that many spikes; its two ends are non-convex n-gons.
 Mesh StarPrism(const Vector& centre, double radius, double height, int spikes);
+/// A square prism with a square hole from end to end, turned about all axes; each end is one n-gon
+/// whose hole is joined to its rim by a bridge, or, triangulated, 8 triangles.
+Mesh HoledPrism(const Vector& centre, double radius, double height, bool triangulated);
 /// Spheres inside each other, alternately solid and hollow under the parity rule.
 Mesh NestedShells(const Vector& centre, const std::vector<double>& radii);
 /// Triangles of all sizes: a box, spheres from coarse to fine, and a fine knot in it; 0.5 M of

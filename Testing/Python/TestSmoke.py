@@ -9,12 +9,16 @@ import unittest
 import numpy as np
 import vtkvoxelization
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkHyperTreeGrid, vtkHyperTreeGridNonOrientedCursor, vtkImageData, vtkPolyData)
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkvoxelization import (
     vtkBinvoxReader, vtkBinvoxWriter, vtkHybridSurfaceVoxelizer, vtkImageToSlicemap, vtkSlicemap,
-    vtkSlicemapSolidVoxelizer, vtkVoxelAlgorithm, vtkVoxelBoolean, vtkVoxelConnectivity, vtkVoxelContext,
-    vtkVoxelDensityNormals, vtkVoxelFilter, vtkVoxelizer, vtkVoxelMorphology)
+    vtkSlicemapSolidVoxelizer, vtkTetraCoveringVoxelizer, vtkVoxelAlgorithm, vtkVoxelBoolean,
+    vtkVoxelConnectivity, vtkVoxelContext, vtkVoxelDensityNormals, vtkVoxelFilter, vtkVoxelizer,
+    vtkVoxelMorphology)
 
 # What all voxelizers have, and what each has besides.
 VALUES = {
@@ -37,6 +41,22 @@ VALUES = {
     "MemoryLimit": 123456,
 }
 SOLID_VALUES = {"Mode": 3, "FillRule": 2, "ColumnAxis": 1}
+TETRA_VALUES = {
+    "Shell": 18,
+    "KeepInterior": True,
+    "ShellValue": 5,
+    "Seed": -12345678901,
+    "Variant": 7,
+    "RotationMode": 2,
+    "FixedRotation": (30.0, 1.0, 2.0, 3.0),
+    "RotationAxis": (0.0, 1.0, 2.0),
+    "ScaleRange": (0.5, 1.5),
+    "DisplacementAmplitude": 0.05,
+    "DisplacementDistribution": 1,
+    "DisplacementDirection": 1,
+    "SafeScaleToFit": True,
+    "RasterMethod": 0,
+}
 SURFACE_VALUES = {"Separability": 6, "Strategy": 2, "CutoffArea": 3.5, "AttributeCombination": 3}
 
 
@@ -77,6 +97,7 @@ def leaves(tree):
 
 
 class Smoke(unittest.TestCase):
+
     def test_instances(self):
         abstract = vtkVoxelAlgorithm, vtkVoxelFilter, vtkVoxelizer
         classes = {name: value for name, value in vars(vtkvoxelization).items() if isinstance(value, type)}
@@ -144,6 +165,7 @@ class Smoke(unittest.TestCase):
         normals = vtk_to_numpy(data.GetArray("Normals")).reshape(4, 6, 4, 3)
         self.assertTrue(np.array_equal(normals[2, 3], [[-1, 0, 0], [-1, 0, 0], [-1, 0, 0], [0, 0, 0]]))
         self.assertEqual(density.GetOutput().GetOrigin(), (1.5, 0.5, 0.5))
+
     def test_connectivity(self):
         values = np.ones((9, 11, 13), np.uint8)
         values[4, 5, 6] = 0
@@ -183,6 +205,28 @@ class Smoke(unittest.TestCase):
         sets.Update()
         self.assertEqual(sets.GetNumberOfFilledVoxels(), ((values >= 0) & (values <= 100)).sum())
 
+    def test_variants(self):
+        voxelizer = vtkTetraCoveringVoxelizer()
+        voxelizer.SetInputData(sphere())
+        voxelizer.SetSampleDimensions(20, 20, 20)
+        voxelizer.SetRotationModeToUniform()
+        voxelizer.SetScaleRange(0.5, 1.5)
+        voxelizer.SafeScaleToFitOn()
+        array = vtkUnsignedCharArray()
+        self.assertTrue(voxelizer.VoxelizeBatch(3, 4, array))
+        batch = vtk_to_numpy(array).reshape(4, 20, 20, 20)
+        voxelizer.SetVariant(5)
+        voxelizer.Update()
+        single = vtk_to_numpy(voxelizer.GetOutput().GetPointData().GetScalars())
+        self.assertTrue(np.array_equal(batch[2], single.reshape(20, 20, 20)))
+        self.assertTrue(single.any() and not np.array_equal(batch[0], batch[1]))
+        matrix = vtkMatrix4x4()
+        self.assertTrue(voxelizer.GetVariantMatrix(5, matrix))
+        mesh = vtkPolyData()
+        self.assertTrue(voxelizer.GetVariantMesh(5, mesh))
+        point = sphere().GetPoint(7) + (1.0,)
+        np.testing.assert_allclose(mesh.GetPoint(7), matrix.MultiplyPoint(point)[:3], atol=1e-12)
+
     def test_binvox(self):
         ball = vtkSlicemapSolidVoxelizer()
         ball.SetInputData(sphere())
@@ -201,7 +245,8 @@ class Smoke(unittest.TestCase):
 
     def test_properties(self):
         for voxelizer, own in (
-                (vtkSlicemapSolidVoxelizer(), SOLID_VALUES), (vtkHybridSurfaceVoxelizer(), SURFACE_VALUES)):
+                (vtkSlicemapSolidVoxelizer(), SOLID_VALUES), (vtkHybridSurfaceVoxelizer(), SURFACE_VALUES),
+                (vtkTetraCoveringVoxelizer(), TETRA_VALUES)):
             for name, value in {**VALUES, **own}.items():
                 getattr(voxelizer, "Set" + name)(value)
                 self.assertEqual(getattr(voxelizer, "Get" + name)(), value, name)

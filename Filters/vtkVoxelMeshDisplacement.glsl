@@ -1,0 +1,45 @@
+// By how much the points of a vtkVoxelMesh are moved; goes before the file that fetches them.
+//
+// DISPLACED       defined when they are moved at all
+// ALONG_NORMALS   defined when they move along the normals of the mesh
+//
+// PLACES_DIFFER   defined when some of the points lie at the same place
+//
+// Places          R32UI buffer texture, a point: the id of the first point at the same place, for points
+//                 that lie together stay together; with PLACES_DIFFER only
+// Displacements   RGB32F buffer texture, a ring of vectors, RingMask + 1 of them, a power of two; along
+//                 normals only the first component counts
+// Amplitude       their unit, in world coordinates
+// Normals         RGB32F buffer texture, a point: the unit normal; with ALONG_NORMALS only
+//
+// The point at place i takes vector i + FirstDisplacement of the ring: Ogayar et al., section III-B.
+
+#ifdef DISPLACED
+
+#ifdef PLACES_DIFFER
+uniform usamplerBuffer Places;
+#endif
+uniform samplerBuffer Displacements;
+uniform uint FirstDisplacement;
+uniform uint RingMask;
+uniform float Amplitude;
+#ifdef ALONG_NORMALS
+uniform samplerBuffer Normals;
+#endif
+
+vec3 displacementOf(uint id)
+{
+#ifdef PLACES_DIFFER
+  uint place = texelFetch(Places, int(id)).x;
+#else
+  uint place = id;
+#endif
+  vec3 free = texelFetch(Displacements, int((place + FirstDisplacement) & RingMask)).xyz;
+#ifdef ALONG_NORMALS
+  return (Amplitude * free.x) * texelFetch(Normals, int(id)).xyz;
+#else
+  return Amplitude * free;
+#endif
+}
+
+#endif
