@@ -7,6 +7,7 @@
 #include "MeshReader.h"
 #include "ReferenceImage.h"
 #include "TextureImage.h"
+#include "VoxelInput.h"
 #include "VoxelOutput.h"
 
 #include "vtkHybridSurfaceVoxelizer.h"
@@ -466,6 +467,18 @@ void CheckOutput(const Options& options, const Names& given)
   }
 }
 
+/// Voxels of a file are written as they are.
+void CheckVoxels(const Options& options, const Names& given)
+{
+  for (const std::string& option : given)
+  {
+    if (VoxelInput::IsVoxels(options.Input) && option != "--quiet")
+    {
+      Refuse(option + " is for meshes, and INPUT " + options.Input + " holds voxels");
+    }
+  }
+}
+
 void CheckTogether(const Options& options, const Names& given)
 {
   const std::string oneSize = "each gives the size of the voxels";
@@ -605,6 +618,7 @@ Options Options::Parse(const std::vector<std::string>& words)
   }
   StoreFiles(options, files);
   CheckFiles(options);
+  CheckVoxels(options, given);
   CheckMethod(options, given);
   CheckTogether(options, given);
   CheckOutput(options, given);
@@ -618,10 +632,12 @@ std::string Options::GetHelp()
          "Turns a mesh into voxels, solid by default, on the graphics processor or what stands in\n"
          "for it.\n\n"
          "  INPUT             the mesh: "
-      << MeshReader::GetExtensions()
-      << "\n"
-         "  OUTPUT            the voxels: "
-      << VoxelOutput::GetExtensions()
+      << MeshReader::GetExtensions() << "\n"
+      << (VoxelInput::GetExtensions().empty()
+             ? std::string()
+             : "                    or voxels, to be written as they are: " +
+               VoxelInput::GetExtensions() + "\n")
+      << "  OUTPUT            the voxels: " << VoxelOutput::GetExtensions()
       << "\n"
          "                    .vti holds all there is, .mha, .mhd and .binvox the set voxels\n"
          "                    alone; with --method surface also .vtp, a list of the voxels, and\n"

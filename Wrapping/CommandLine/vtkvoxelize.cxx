@@ -10,6 +10,7 @@
 #include "Report.h"
 #include "StagedFiles.h"
 #include "Terminal.h"
+#include "VoxelInput.h"
 #include "VoxelOutput.h"
 #include "VoxelSet.h"
 #include "VoxelizerFactory.h"
@@ -114,14 +115,32 @@ void WritePicture(
   Picture::Write(picture, staged, *options.Picture);
 }
 
+/// From one file of voxels to another.
+void Convert(const Options& options, Terminal& terminal)
+{
+  Messages messages;
+  StagedFiles files;
+  const VoxelOutput output(options.Output, files);
+  output.Write(VoxelInput::Read(options.Input, messages, terminal), messages, terminal);
+  files.Commit();
+  terminal.ClearBar();
+}
+
 void Run(const Options& options, Terminal& terminal)
 {
+  if (VoxelInput::IsVoxels(options.Input))
+  {
+    Convert(options, terminal);
+    return;
+  }
   Messages messages;
   StagedFiles files;
   const std::string picture = StagePicture(options, files);
   const VoxelOutput output(options.Output, files);
   const auto kind = VoxelOutput::GetKind(options.Output);
   const auto voxelizer = VoxelizerFactory::Make(options, messages);
+  const bool hasArrays = options.Picture || options.Texture || !options.Attributes.empty();
+  voxelizer->SetHostOutput(hasArrays || !VoxelOutput::TakesSlicemap(options.Output));
 
   Report report;
   report.Time("reading",
