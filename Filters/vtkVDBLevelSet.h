@@ -14,15 +14,12 @@
 
 namespace vtkVDBLevelSet
 {
-/// Beyond that, a leaf's neighbours don't see all of the band.
-constexpr double LargestHalfWidth = 7.0;
-
 /**
  * Distances, in world units, negative inside: from the centre of a voxel to the nearest centre of
  * the other kind, less half a voxel, which is exact on average and off by half a voxel at most
- * where the surface is not sharper than voxels. Active are the voxels closer than `halfWidth`
- * voxels, the background is that distance; a pruned level set as OpenVDB wants it. `progress` gets
- * the fraction that is done, and stops the work by returning false.
+ * where the surface is not sharper than voxels. Active are the voxels closer than `halfWidth`,
+ * at most 7, voxels; the background is that distance; a pruned level set as OpenVDB wants it.
+ * `progress` gets the fraction that is done, and stops the work by returning false.
  */
 openvdb::FloatGrid::Ptr Make(const openvdb::MaskTree& solid, double voxelSize, double halfWidth,
   const std::function<bool(double)>& progress);
