@@ -13,16 +13,15 @@
 #include "vtkSlicemapImage.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVoxelFileError.h"
 #include "vtkVoxelGrid.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <locale>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,18 +32,6 @@ const std::string Signature = "#binvox";
 constexpr std::int64_t LongestRun = 255;
 constexpr std::int64_t BytesPerRun = 2;
 constexpr std::size_t LongestHeader = 65536;
-
-/// What went wrong, and the code that vtkAlgorithm knows for it.
-struct ReadError : std::runtime_error
-{
-  ReadError(unsigned long code, const std::string& what)
-    : std::runtime_error(what)
-    , Code(code)
-  {
-  }
-
-  unsigned long Code;
-};
 
 /// Makes rows along x of values that come with y fastest, then z, then x: some planes at a time, so
 /// that neighbours of a row are written together.
@@ -111,20 +98,12 @@ class BinvoxFile
 public:
   explicit BinvoxFile(const char* name)
   {
-    if (!name || !*name)
-    {
-      throw ReadError(vtkErrorCode::NoFileNameError, "There is no file name. Set one.");
-    }
+    vtkVoxelFileError::RequireFile(name);
     this->Name = name;
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(this->Name, none))
-    {
-      throw ReadError(vtkErrorCode::FileNotFoundError, "There is no file " + this->Name + ".");
-    }
     this->Stream.open(this->Name, std::ios::binary);
     if (!this->Stream)
     {
-      throw ReadError(
+      throw vtkVoxelFileError(
         vtkErrorCode::CannotOpenFileError, "The file " + this->Name + " can't be opened.");
     }
     this->ReadHeader();
@@ -164,7 +143,7 @@ public:
 private:
   [[noreturn]] void Fail(const std::string& what) const
   {
-    throw ReadError(vtkErrorCode::FileFormatError,
+    throw vtkVoxelFileError(vtkErrorCode::FileFormatError,
       "The file " + this->Name + " is no .binvox file, or is damaged: " + what + ".");
   }
 
@@ -302,7 +281,7 @@ int vtkBinvoxReader::RequestInformation(
     vtkDataObject::SetPointDataActiveScalarInfo(output, VTK_UNSIGNED_CHAR, 1);
     return 1;
   }
-  catch (const ReadError& error)
+  catch (const vtkVoxelFileError& error)
   {
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.what());
@@ -320,7 +299,7 @@ int vtkBinvoxReader::RequestData(
     const auto array = vtkSlicemapImage::NewArray(file.GetGrid(), VTK_UNSIGNED_CHAR);
     if (!array)
     {
-      throw ReadError(vtkErrorCode::FileFormatError,
+      throw vtkVoxelFileError(vtkErrorCode::FileFormatError,
         "There is no memory for the " + std::to_string(file.GetGrid().GetNumberOfVoxels()) +
           " voxels of " + this->FileName + ".");
     }
@@ -339,7 +318,7 @@ int vtkBinvoxReader::RequestData(
     output->GetPointData()->SetScalars(array);
     return 1;
   }
-  catch (const ReadError& error)
+  catch (const vtkVoxelFileError& error)
   {
     output->Initialize();
     this->SetErrorCode(error.Code);

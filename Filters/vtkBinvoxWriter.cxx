@@ -2,26 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBinvoxWriter.h"
 
-#include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
+#include "vtkImageVoxels.h"
 #include "vtkInformation.h"
+#include "vtkNewVoxelFile.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkSlicemap.h"
-#include "vtkSlicemapImage.h"
+#include "vtkVoxelFileError.h"
 #include "vtkVoxelGrid.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <locale>
 #include <new>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -29,83 +24,21 @@ namespace
 {
 constexpr int WordBits = 32;
 
-/// What went wrong, and the code that vtkAlgorithm knows for it.
-struct WriteError : std::runtime_error
+/// The header has one scale and no axes.
+void CheckGrid(const vtkVoxelGrid& grid)
 {
-  WriteError(unsigned long code, const std::string& what)
-    : std::runtime_error(what)
-    , Code(code)
+  constexpr double tolerance = 1e-6;
+  const glm::dvec3 spacing = grid.Spacing;
+  const bool areCubes =
+    glm::all(glm::lessThanEqual(glm::abs(spacing - spacing.x), glm::dvec3(tolerance * spacing.x)));
+  if (!areCubes || grid.Direction != glm::dmat3(1.0))
   {
+    throw vtkVoxelFileError(vtkErrorCode::UserError,
+      "A .binvox file has cubic voxels along the axes of the world, and this image is another "
+      "one: " +
+        grid.Describe() + ". Resample it, or write a .vti file.");
   }
-
-  unsigned long Code;
-};
-
-/// The voxels of an image where they are now: in a slicemap, or in scalars.
-struct Voxels
-{
-  explicit Voxels(vtkImageData* image)
-    : Slicemap(vtkSlicemap::GetFromImage(image))
-    , Scalars(vtkSlicemapImage::GetScalars(image))
-    , Grid(vtkVoxelGrid::FromImage(image))
-  {
-    if (this->Slicemap)
-    {
-      this->Grid = this->Slicemap->GetGrid();
-    }
-    else if (this->Scalars && this->Scalars != image->GetPointData()->GetScalars())
-    {
-      this->Grid = this->Grid.CellsToVoxels();
-    }
-  }
-
-  void Check() const
-  {
-    if (this->Grid.IsEmpty() || (!this->Slicemap && !this->Scalars))
-    {
-      throw WriteError(vtkErrorCode::UserError,
-        "The image has no voxels: " + this->Grid.Describe() +
-          ". Update its source first, and give it active point or cell scalars.");
-    }
-    if (!this->Slicemap && this->Scalars->GetNumberOfTuples() != this->Grid.GetNumberOfVoxels())
-    {
-      throw WriteError(vtkErrorCode::UserError,
-        "The scalars of the image have " + std::to_string(this->Scalars->GetNumberOfTuples()) +
-          " values, but its " + this->Grid.Describe() + " takes " +
-          std::to_string(this->Grid.GetNumberOfVoxels()) + ".");
-    }
-    constexpr double tolerance = 1e-6;
-    const glm::dvec3 spacing = this->Grid.Spacing;
-    const bool areCubes = glm::all(
-      glm::lessThanEqual(glm::abs(spacing - spacing.x), glm::dvec3(tolerance * spacing.x)));
-    if (!areCubes || this->Grid.Direction != glm::dmat3(1.0))
-    {
-      throw WriteError(vtkErrorCode::UserError,
-        "A .binvox file has cubic voxels along the axes of the world, and this image is another "
-        "one: " +
-          this->Grid.Describe() + ". Resample it, or write a .vti file.");
-    }
-  }
-
-  /// The words of the slicemap, or of the scalars packed like one, while `consume` runs.
-  void Read(const std::function<void(const std::uint32_t* words)>& consume) const
-  {
-    if (!this->Slicemap)
-    {
-      std::vector<std::uint32_t> words(vtkSlicemap::GetNumberOfWords(this->Grid));
-      vtkSlicemapImage::Pack(this->Scalars, this->Grid, words.data());
-      consume(words.data());
-    }
-    else if (!this->Slicemap->Read(consume))
-    {
-      throw WriteError(vtkErrorCode::UserError, "The voxels could not be read from the GPU.");
-    }
-  }
-
-  vtkSlicemap* Slicemap;
-  vtkDataArray* Scalars;
-  vtkVoxelGrid Grid;
-};
+}
 
 /// The format's name for x, z and y is depth, height and width.
 std::string MakeHeader(const vtkVoxelGrid& grid)
@@ -218,67 +151,6 @@ void WriteRuns(const std::uint32_t* words, const vtkVoxelGrid& grid, std::ostrea
   }
   runs.Finish();
 }
-
-/// A file that takes its name when it is complete, and leaves nothing behind otherwise.
-class NewFile
-{
-public:
-  NewFile(const std::string& name, bool inPlace)
-    : Name(name)
-    , Partial(inPlace ? name : name + ".part")
-  {
-    std::error_code none;
-    if (std::filesystem::is_directory(this->Name, none))
-    {
-      throw WriteError(vtkErrorCode::CannotOpenFileError, name + " is a folder. Name a file.");
-    }
-    errno = 0;
-    this->Stream.open(this->Partial, std::ios::binary);
-    if (!this->Stream)
-    {
-      throw WriteError(vtkErrorCode::CannotOpenFileError,
-        "The file " + name + " can't be written: " + std::strerror(errno) + ".");
-    }
-    this->Exists = true;
-  }
-
-  ~NewFile()
-  {
-    if (this->Exists)
-    {
-      this->Stream.close();
-      std::error_code none;
-      std::filesystem::remove(this->Partial, none);
-    }
-  }
-
-  NewFile(const NewFile&) = delete;
-  void operator=(const NewFile&) = delete;
-
-  void Commit()
-  {
-    this->Stream.close();
-    std::error_code error;
-    if (this->Stream)
-    {
-      std::filesystem::rename(this->Partial, this->Name, error);
-    }
-    if (!this->Stream || error)
-    {
-      throw WriteError(vtkErrorCode::OutOfDiskSpaceError,
-        "The file " + this->Name.string() +
-          " can't be written: " + (error ? error.message() : "the disk may be full") + ".");
-    }
-    this->Exists = false;
-  }
-
-  std::ofstream Stream;
-
-private:
-  std::filesystem::path Name;
-  std::filesystem::path Partial;
-  bool Exists = false;
-};
 }
 
 vtkStandardNewMacro(vtkBinvoxWriter);
@@ -305,29 +177,27 @@ void vtkBinvoxWriter::WriteData()
 {
   try
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw WriteError(vtkErrorCode::NoFileNameError, "There is no file name. Set one.");
-    }
-    const Voxels voxels(this->GetInput());
+    const vtkImageVoxels voxels(this->GetInput());
     voxels.Check();
-    NewFile file(this->FileName, this->InPlace);
-    file.Stream << MakeHeader(voxels.Grid);
+    CheckGrid(voxels.Grid);
+    vtkNewVoxelFile file(this->FileName, this->InPlace);
+    std::ostream& stream = file.GetStream();
+    stream << MakeHeader(voxels.Grid);
     bool aborted = false;
     const auto progress = [&](double fraction)
     {
       this->UpdateProgress(fraction);
       aborted = this->GetAbortExecute() != 0;
-      return !aborted && file.Stream;
+      return !aborted && stream;
     };
     voxels.Read(
-      [&](const std::uint32_t* words) { WriteRuns(words, voxels.Grid, file.Stream, progress); });
+      [&](const std::uint32_t* words) { WriteRuns(words, voxels.Grid, stream, progress); });
     if (!aborted)
     {
       file.Commit();
     }
   }
-  catch (const WriteError& error)
+  catch (const vtkVoxelFileError& error)
   {
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.what());

@@ -6,6 +6,7 @@
 #include "vtkCommand.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkFieldData.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -513,6 +514,7 @@ bool vtkHybridSurfaceVoxelizer::FillVoxelList(
   output->SetVerts(n < VTK_TYPE_INT32_MAX ? MakeVertices<vtkTypeInt32Array>(n)
                                           : MakeVertices<vtkTypeInt64Array>(n));
   output->GetPointData()->AddArray(indices);
+  grid.ApplyTo(output->GetFieldData());
   for (const auto& array : arrays.All)
   {
     output->GetPointData()->AddArray(array);

@@ -38,7 +38,8 @@
  *  - 0: vtkImageData, as of all voxelizers (see vtkVoxelizer); attributes are further arrays, zero
  *    in voxels that are not set. Boolean operations and the like see the occupancy only.
  *  - 1: vtkPolyData, a vertex for the centre of each set voxel, ordered with x fastest, with the
- *    point array "VoxelIndex" of three ints (i, j, k) and the attributes.
+ *    point array "VoxelIndex" of three ints (i, j, k) and the attributes. Its field data tell the
+ *    grid: "VoxelExtent", "VoxelSpacing", "VoxelOrigin" and "VoxelDirection" (row by row).
  *  - 2: vtkHyperTreeGrid, an octree whose leaves at the deepest level are the set voxels; what lies
  *    between is masked. The grid must not be rotated.
  * Ports 1 and 2 are worked out in slabs and never make a dense array, so that 2048^3 voxels and

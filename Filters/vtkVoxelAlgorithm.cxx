@@ -16,27 +16,10 @@
 #include "vtkVoxelContext.h"
 #include "vtkVoxelContextScope.h"
 #include "vtkVoxelGrid.h"
+#include "vtkVoxelMemory.h"
 
-#include <vtksys/SystemInformation.hxx>
-
-#include <cmath>
 #include <stdexcept>
 #include <vector>
-
-namespace
-{
-constexpr double BytesPerMebibyte = 1048576.0;
-
-/// Ask the system for its free memory only for outputs that could matter.
-constexpr std::int64_t CarelessBytes = std::int64_t(1) << 28;
-
-std::int64_t GetFreeBytes()
-{
-  vtksys::SystemInformation system;
-  system.RunMemoryCheck();
-  return static_cast<std::int64_t>(system.GetAvailablePhysicalMemory()) * 1048576;
-}
-}
 
 struct vtkVoxelAlgorithm::Internals
 {
@@ -186,18 +169,7 @@ void vtkVoxelAlgorithm::CheckMemory(const vtkVoxelGrid& grid)
 void vtkVoxelAlgorithm::CheckBytes(
   std::int64_t bytes, const std::string& what, const std::string& remedy) const
 {
-  if (this->MemoryLimit == 0 && bytes < CarelessBytes)
-  {
-    return;
-  }
-  const std::int64_t limit = this->MemoryLimit > 0 ? this->MemoryLimit : GetFreeBytes();
-  if (bytes > limit)
-  {
-    throw std::runtime_error("The " + what + " takes " +
-      std::to_string(std::llround(bytes / BytesPerMebibyte)) + " MiB, but " +
-      std::to_string(std::llround(limit / BytesPerMebibyte)) +
-      (this->MemoryLimit > 0 ? " MiB are allowed by MemoryLimit. " : " MiB are free. ") + remedy);
-  }
+  vtkVoxelMemory::CheckBytes(bytes, this->MemoryLimit, what, remedy);
 }
 
 void vtkVoxelAlgorithm::PublishGrid(const vtkVoxelGrid& grid, vtkInformation* outputInfo)

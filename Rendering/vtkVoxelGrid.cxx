@@ -2,14 +2,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVoxelGrid.h"
 
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
+#include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
+#include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <cmath>
 #include <sstream>
+
+namespace
+{
+constexpr char ExtentName[] = "VoxelExtent";
+constexpr char SpacingName[] = "VoxelSpacing";
+constexpr char OriginName[] = "VoxelOrigin";
+constexpr char DirectionName[] = "VoxelDirection";
+
+template <typename Array, typename Number>
+void AddField(vtkFieldData* fields, const char* name, const Number* numbers, int count)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(count);
+  array->InsertNextTypedTuple(numbers);
+  fields->AddArray(array);
+}
+
+/// False when there is no such array.
+template <typename Number>
+bool GetField(vtkFieldData* fields, const char* name, Number* numbers, int count)
+{
+  vtkDataArray* array = fields->GetArray(name);
+  if (!array || array->GetNumberOfTuples() != 1 || array->GetNumberOfComponents() != count)
+  {
+    return false;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    numbers[i] = static_cast<Number>(array->GetComponent(0, i));
+  }
+  return true;
+}
+}
 
 vtkVoxelGrid vtkVoxelGrid::FromImage(vtkImageData* image)
 {
@@ -59,6 +97,30 @@ void vtkVoxelGrid::ApplyTo(vtkInformation* info) const
   info->Set(vtkDataObject::ORIGIN(), &this->Origin[0], 3);
   const auto direction = this->GetDirectionRows();
   info->Set(vtkDataObject::DIRECTION(), direction.data(), 9);
+}
+
+vtkVoxelGrid vtkVoxelGrid::FromFieldData(vtkFieldData* fields)
+{
+  vtkVoxelGrid grid;
+  std::array<double, 9> direction;
+  const bool isThere = GetField(fields, ExtentName, grid.Extent.data(), 6) &&
+    GetField(fields, SpacingName, &grid.Spacing[0], 3) &&
+    GetField(fields, OriginName, &grid.Origin[0], 3) &&
+    GetField(fields, DirectionName, direction.data(), 9);
+  if (!isThere)
+  {
+    return vtkVoxelGrid();
+  }
+  grid.SetDirectionRows(direction.data());
+  return grid;
+}
+
+void vtkVoxelGrid::ApplyTo(vtkFieldData* fields) const
+{
+  AddField<vtkIntArray>(fields, ExtentName, this->Extent.data(), 6);
+  AddField<vtkDoubleArray>(fields, SpacingName, &this->Spacing[0], 3);
+  AddField<vtkDoubleArray>(fields, OriginName, &this->Origin[0], 3);
+  AddField<vtkDoubleArray>(fields, DirectionName, this->GetDirectionRows().data(), 9);
 }
 
 std::array<double, 9> vtkVoxelGrid::GetDirectionRows() const

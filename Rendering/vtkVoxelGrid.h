@@ -19,6 +19,7 @@
 #include <glm/glm.hpp>
 #include <string> // for Describe
 
+class vtkFieldData;
 class vtkImageData;
 class vtkInformation;
 
@@ -38,6 +39,13 @@ struct VTKVOXELIZATION_EXPORT vtkVoxelGrid
   /// The same for the whole extent and the geometry that a pipeline announces.
   static vtkVoxelGrid FromInformation(vtkInformation* info);
   void ApplyTo(vtkInformation* info) const;
+  ///@}
+
+  ///@{
+  /// The same for data that are no image, as arrays "VoxelExtent", "VoxelSpacing", "VoxelOrigin"
+  /// and "VoxelDirection" of field data. Without them the grid is empty.
+  static vtkVoxelGrid FromFieldData(vtkFieldData* fields);
+  void ApplyTo(vtkFieldData* fields) const;
   ///@}
 
   glm::ivec3 GetFirst() const { return { this->Extent[0], this->Extent[2], this->Extent[4] }; }

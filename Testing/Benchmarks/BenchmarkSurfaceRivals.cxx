@@ -9,7 +9,6 @@
 // A mesh goes from memory to voxels in memory. Rows of more than about five seconds are left out.
 
 #include "VoxelBenchmarks.h"
-#include "VoxelReference.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -17,13 +16,13 @@
 #include <vtkVoxelModeller.h>
 
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
+#include "OpenVDBMesh.h"
+
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 #endif
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -55,34 +54,6 @@ void VoxelModeller(benchmark::State& state, const Mesh& mesh)
 }
 
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
-/// The triangles as meshToVolume wants to see them.
-class OpenVDBMesh
-{
-public:
-  OpenVDBMesh(vtkPolyData* mesh, int resolution)
-    : NumberOfPoints(static_cast<std::size_t>(mesh->GetNumberOfPoints()))
-    , Triangles(mesh, VoxelReference::Grid::FromImage(MakeGrid(mesh, resolution)))
-  {
-  }
-
-  std::size_t polygonCount() const
-  {
-    return static_cast<std::size_t>(this->Triangles.GetNumberOfTriangles());
-  }
-  std::size_t pointCount() const { return this->NumberOfPoints; }
-  std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t polygon, std::size_t vertex, openvdb::Vec3d& point) const
-  {
-    const auto triangle = static_cast<std::int64_t>(polygon);
-    point = openvdb::Vec3d(
-      this->Triangles.GetPoint(this->Triangles.GetPointIds(triangle)[vertex]).data());
-  }
-
-private:
-  std::size_t NumberOfPoints;
-  VoxelReference::IndexMesh Triangles;
-};
-
 void OpenVDB(benchmark::State& state, const Mesh& mesh)
 {
   openvdb::initialize();

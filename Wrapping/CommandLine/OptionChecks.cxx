@@ -5,6 +5,7 @@
 #include "Argument.h"
 #include "FileNames.h"
 #include "Options.h"
+#include "VoxelInput.h"
 #include "VoxelOutput.h"
 
 #include "vtkSlicemapSolidVoxelizer.h"
@@ -184,6 +185,19 @@ void CheckSteps(const Options& options, const Names& given)
     RefuseWithOutput(given, step.c_str(), options, "steps make an image");
   }
 }
+
+/// Voxels of a file are written as they are.
+void CheckVoxels(const Options& options, const Names& given)
+{
+  for (const std::string& option : given)
+  {
+    if (VoxelInput::IsVoxels(options.Input) && option != "--quiet")
+    {
+      Argument::RefuseUsage(
+        option + " is for meshes, and INPUT " + options.Input + " holds voxels");
+    }
+  }
+}
 }
 
 void OptionChecks::CheckKernelIsUsed(const Options& options)
@@ -198,6 +212,7 @@ void OptionChecks::CheckKernelIsUsed(const Options& options)
 void OptionChecks::Check(const Options& options, const Names& given)
 {
   CheckFiles(options);
+  CheckVoxels(options, given);
   CheckMethod(options, given);
   CheckTogether(options, given);
   CheckOutput(options, given);

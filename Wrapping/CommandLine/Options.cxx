@@ -7,6 +7,7 @@
 #include "MeshReader.h"
 #include "OptionChecks.h"
 #include "TextureImage.h"
+#include "VoxelInput.h"
 #include "VoxelOutput.h"
 
 #include "vtkHybridSurfaceVoxelizer.h"
@@ -391,10 +392,12 @@ std::string Options::GetHelp()
          "Turns a mesh into voxels, solid by default, on the graphics processor or what stands in\n"
          "for it; and joins them with others, or makes them grow and shrink, step by step.\n\n"
          "  INPUT             the mesh: "
-      << MeshReader::GetExtensions()
-      << "\n"
-         "  OUTPUT            the voxels: "
-      << VoxelOutput::GetExtensions()
+      << MeshReader::GetExtensions() << "\n"
+      << (VoxelInput::GetExtensions().empty()
+             ? std::string()
+             : "                    or voxels, to be written as they are: " +
+               VoxelInput::GetExtensions() + "\n")
+      << "  OUTPUT            the voxels: " << VoxelOutput::GetExtensions()
       << "\n"
          "                    .vti holds all there is, .mha, .mhd and .binvox the set voxels\n"
          "                    alone; with --method surface also .vtp, a list of the voxels, and\n"

@@ -22,6 +22,10 @@
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkZLibDataCompressor.h"
 
+#ifdef VTKVOXELIZATION_HAS_OPENVDB
+#include "vtkVDBVoxelWriter.h"
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -106,12 +110,16 @@ struct Format
 };
 
 constexpr char BinvoxExtension[] = ".binvox";
+constexpr char VDBExtension[] = ".vdb";
 
 constexpr Format Formats[] = {
   { ".vti", VoxelOutput::Kind::Image, MakeWriter<vtkXMLImageDataWriter> },
   { ".mha", VoxelOutput::Kind::Image, nullptr },
   { ".mhd", VoxelOutput::Kind::Image, nullptr },
   { BinvoxExtension, VoxelOutput::Kind::Image, nullptr },
+#ifdef VTKVOXELIZATION_HAS_OPENVDB
+  { VDBExtension, VoxelOutput::Kind::Image, nullptr },
+#endif
   { ".vtp", VoxelOutput::Kind::List, MakeWriter<vtkXMLPolyDataWriter> },
   { ".htg", VoxelOutput::Kind::Octree, MakeOctreeWriter },
 };
@@ -206,27 +214,10 @@ void VoxelOutput::Refuse(const std::string& why) const
   OutputFile::Refuse(this->Target, why);
 }
 
-void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
+template <typename Writer>
+void VoxelOutput::WriteInPlace(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
 {
-  if (IsXML(this->Target))
-  {
-    this->WriteXML(voxels, messages, terminal);
-  }
-  else if (this->Extension == BinvoxExtension)
-  {
-    this->WriteBinvox(voxels, messages, terminal);
-  }
-  else
-  {
-    terminal.ShowProgress("writing", 0.0);
-    this->WriteMetaImage(vtkImageData::SafeDownCast(voxels));
-    terminal.ShowProgress("writing", 1.0);
-  }
-}
-
-void VoxelOutput::WriteBinvox(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
-{
-  vtkNew<vtkBinvoxWriter> writer;
+  vtkNew<Writer> writer;
   writer->SetFileName(this->File.c_str());
   writer->InPlaceOn();
   writer->SetInputDataObject(voxels);
@@ -243,6 +234,30 @@ void VoxelOutput::WriteBinvox(vtkDataObject* voxels, Messages& messages, Termina
   if (code != vtkErrorCode::NoError)
   {
     this->Refuse(reason);
+  }
+}
+
+void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
+{
+  if (IsXML(this->Target))
+  {
+    this->WriteXML(voxels, messages, terminal);
+  }
+  else if (this->Extension == BinvoxExtension)
+  {
+    this->WriteInPlace<vtkBinvoxWriter>(voxels, messages, terminal);
+  }
+#ifdef VTKVOXELIZATION_HAS_OPENVDB
+  else if (this->Extension == VDBExtension)
+  {
+    this->WriteInPlace<vtkVDBVoxelWriter>(voxels, messages, terminal);
+  }
+#endif
+  else
+  {
+    terminal.ShowProgress("writing", 0.0);
+    this->WriteMetaImage(vtkImageData::SafeDownCast(voxels));
+    terminal.ShowProgress("writing", 1.0);
   }
 }
 
@@ -274,6 +289,10 @@ void VoxelOutput::WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& 
 void VoxelOutput::WriteMetaImage(vtkImageData* image) const
 {
   auto* voxels = vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetScalars());
+  if (!voxels)
+  {
+    this->Refuse("it holds nothing but set voxels, and there are other values; write a .vti file");
+  }
   vtkNew<vtkZLibDataCompressor> compressor;
   compressor->SetCompressionLevel(CompressionLevel);
   vtkSmartPointer<vtkUnsignedCharArray> compressed;
@@ -319,7 +338,13 @@ bool VoxelOutput::HasCells(const std::string& target)
 
 bool VoxelOutput::HasAttributes(const std::string& target)
 {
-  return IsXML(target);
+  return IsXML(target) || FileNames::GetExtension(target) == VDBExtension;
+}
+
+bool VoxelOutput::TakesSlicemap(const std::string& target)
+{
+  const std::string extension = FileNames::GetExtension(target);
+  return extension == BinvoxExtension || extension == VDBExtension;
 }
 
 std::string VoxelOutput::GetExtensions()

@@ -18,8 +18,8 @@ class vtkImageData;
 
 /**
  * The file, or for .mhd two files, that the voxels go to: those of VTK's XML by its writers,
- * .binvox by the module's; MetaImage here, since VTK's writer leaves the direction matrix out,
- * rounds the spacing and tells of no error.
+ * .binvox and .vdb by the module's; MetaImage here, since VTK's writer leaves the direction matrix
+ * out, rounds the spacing and tells of no error.
  */
 class VoxelOutput
 {
@@ -56,12 +56,16 @@ public:
   static bool HasAttributes(const std::string& target);
   ///@}
 
+  /// Whether set voxels are written from a slicemap, without an array of them.
+  static bool TakesSlicemap(const std::string& target);
+
   /// What can be written, for messages: ".vti, .mha ...".
   static std::string GetExtensions();
 
 private:
   void WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
-  void WriteBinvox(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
+  template <typename Writer>
+  void WriteInPlace(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
   void WriteMetaImage(vtkImageData* image) const;
   [[noreturn]] void Refuse(const std::string& why) const;
 

@@ -98,6 +98,9 @@ void VoxelPipeline::Read()
   this->FitGrid();
   this->Connect();
   VoxelizerFactory::SetOutput(this->GetResult(), this->Asked);
+  const bool hasArrays =
+    this->Asked.Picture || this->Asked.Texture || !this->Asked.Attributes.empty();
+  this->GetResult()->SetHostOutput(hasArrays || !VoxelOutput::TakesSlicemap(this->Asked.Output));
 }
 
 void VoxelPipeline::FitGrid()
@@ -150,7 +153,6 @@ void VoxelPipeline::Connect()
     filter->HostOutputOff();
     this->Filters.push_back(filter);
   }
-  this->GetResult()->HostOutputOn();
 }
 
 vtkVoxelizer* VoxelPipeline::AddSource(vtkDataObject* mesh, const std::string& file)

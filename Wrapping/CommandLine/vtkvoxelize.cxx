@@ -9,6 +9,7 @@
 #include "Report.h"
 #include "StagedFiles.h"
 #include "Terminal.h"
+#include "VoxelInput.h"
 #include "VoxelOutput.h"
 #include "VoxelPipeline.h"
 #include "VoxelSet.h"
@@ -80,8 +81,24 @@ void WritePicture(
   Picture::Write(picture, staged, *options.Picture);
 }
 
+/// From one file of voxels to another.
+void Convert(const Options& options, Terminal& terminal)
+{
+  Messages messages;
+  StagedFiles files;
+  const VoxelOutput output(options.Output, files);
+  output.Write(VoxelInput::Read(options.Input, messages, terminal), messages, terminal);
+  files.Commit();
+  terminal.ClearBar();
+}
+
 void Run(const Options& options, Terminal& terminal)
 {
+  if (VoxelInput::IsVoxels(options.Input))
+  {
+    Convert(options, terminal);
+    return;
+  }
   Messages messages;
   StagedFiles files;
   const std::string picture = StagePicture(options, files);
