@@ -5,6 +5,7 @@
 #include "Argument.h"
 #include "FileNames.h"
 #include "Options.h"
+#include "StepExtent.h"
 #include "VoxelOutput.h"
 
 #include "vtkSlicemapSolidVoxelizer.h"
@@ -170,6 +171,7 @@ void CheckTogether(const Options& options, const Names& given)
 void CheckSteps(const Options& options, const Names& given)
 {
   OptionChecks::CheckKernelIsUsed(options);
+  OptionChecks::CheckConnectivityIsUsed(options);
   if (options.Steps.empty())
   {
     return;
@@ -183,6 +185,13 @@ void CheckSteps(const Options& options, const Names& given)
   {
     RefuseWithOutput(given, step.c_str(), options, "steps make an image");
   }
+  const bool gridIsGiven = options.Reference || options.Bounds || options.Padding;
+  if (!gridIsGiven && StepExtent(options.Steps).IsEndless())
+  {
+    Argument::RefuseUsage(
+      "--keep-largest after --complement: the voxels go on beyond any grid that is made for the "
+      "mesh; give one by --bounds, --padding or --reference");
+  }
 }
 }
 
@@ -192,6 +201,15 @@ void OptionChecks::CheckKernelIsUsed(const Options& options)
   {
     Argument::RefuseUsage(
       "--kernel is for the --dilate, --erode, --open and --close after it, but there are none");
+  }
+}
+
+void OptionChecks::CheckConnectivityIsUsed(const Options& options)
+{
+  if (!options.ConnectivityIsUsed)
+  {
+    Argument::RefuseUsage(
+      "--connectivity is for the --fill-holes and --keep-largest after it, but there are none");
   }
 }
 

@@ -63,6 +63,12 @@ void AddMorphology(Options& options, Step::Type what, const Argument& reach)
   options.KernelIsUsed = true;
 }
 
+void AddConnectivity(Options& options, Step::Type what, const Argument& step)
+{
+  options.Steps.push_back({ what, step.GetOption(), {}, 0, 0, options.Connectivity });
+  options.ConnectivityIsUsed = true;
+}
+
 const std::vector<Group>& GetGroups()
 {
   static const std::vector<Group> groups = {
@@ -214,6 +220,24 @@ const std::vector<Group>& GetGroups()
               { "corners26", Morphology::KERNEL_CORNERS26 },
               { "sphere", Morphology::KERNEL_SPHERE } });
             o.KernelIsUsed = false;
+          },
+          true },
+        { "--fill-holes", nullptr,
+          "set the voxels of all holes: the unset ones that no path of unset ones joins to\n"
+          "the border of the grid",
+          [](Options& o, const Argument& a) { AddConnectivity(o, Step::Type::FillHoles, a); },
+          true },
+        { "--keep-largest", nullptr, "keep the component of most voxels that are set, alone",
+          [](Options& o, const Argument& a) { AddConnectivity(o, Step::Type::KeepLargest, a); },
+          true },
+        { "--connectivity", "N",
+          "6, 18 or 26 (default): the neighbours that a set voxel holds together with, for\n"
+          "the steps after it; unset ones do so by their faces, and with 6 by their corners",
+          [](Options& o, const Argument& a)
+          {
+            OptionChecks::CheckConnectivityIsUsed(o);
+            o.Connectivity = a.AsChoice({ { "6", 6 }, { "18", 18 }, { "26", 26 } });
+            o.ConnectivityIsUsed = false;
           },
           true },
       } },

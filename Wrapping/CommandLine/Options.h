@@ -35,14 +35,17 @@ struct Options
       Dilate,
       Erode,
       Open,
-      Close
+      Close,
+      FillHoles,
+      KeepLargest
     };
 
     Type What;
-    std::string Option; // as it is given, for messages
-    std::string File;   // of Unite to Xor
-    int Reach = 0;      // of Dilate to Close: voxels to either side
-    int Kernel = 0;     // of these: a constant of vtkVoxelMorphology
+    std::string Option;   // as it is given, for messages
+    std::string File;     // of Unite to Xor
+    int Reach = 0;        // of Dilate to Close: voxels to either side
+    int Kernel = 0;       // of these: a constant of vtkVoxelMorphology
+    int Connectivity = 0; // of FillHoles and KeepLargest: neighbours of a set voxel
   };
 
   std::string Input;
@@ -81,10 +84,12 @@ struct Options
 
   ///@{
   /**
-   * The kernel for the steps to come, and whether one has had it.
+   * Kernel and connectivity for the steps to come, and whether one has had them.
    */
   int Kernel = 0;
   bool KernelIsUsed = true;
+  int Connectivity = 26;
+  bool ConnectivityIsUsed = true;
   ///@}
 
   std::optional<int> ScalarType;

@@ -20,6 +20,7 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelizer.h"
 
+#include <algorithm>
 #include <array>
 
 namespace
@@ -37,16 +38,13 @@ bool AreAlike(const vtkVoxelGrid& one, const vtkVoxelGrid& other)
   const std::array<glm::ivec3, 4> corners = { glm::ivec3(0), glm::ivec3(last.x, 0, 0),
     glm::ivec3(0, last.y, 0), glm::ivec3(0, 0, last.z) };
   const auto otherToOne = one.GetWorldToIndex() * other.GetIndexToWorld();
-  for (const glm::ivec3& corner : corners)
-  {
-    const glm::dvec4 found = otherToOne * glm::dvec4(glm::dvec3(other.GetFirst() + corner), 1.0);
-    const glm::dvec3 wanted(one.GetFirst() + corner);
-    if (!(glm::length(glm::dvec3(found) - wanted) < tolerance))
+  return std::all_of(corners.begin(), corners.end(),
+    [&](const glm::ivec3& corner)
     {
-      return false;
-    }
-  }
-  return true;
+      const glm::dvec4 found = otherToOne * glm::dvec4(glm::dvec3(other.GetFirst() + corner), 1.0);
+      const glm::dvec3 wanted(one.GetFirst() + corner);
+      return glm::length(glm::dvec3(found) - wanted) < tolerance;
+    });
 }
 
 void RefuseErrors(Messages& messages)

@@ -25,8 +25,8 @@ class vtkVoxelFilter;
 class vtkVoxelizer;
 
 /**
- * The voxels stay on the GPU up to the last filter, which alone reads its result back. All
- * functions but the getters throw Failure.
+ * The voxels stay on the GPU up to the last filter, which alone reads its result back, but for
+ * those of holes and components. All functions but the getters throw Failure.
  */
 class VoxelPipeline
 {
