@@ -762,10 +762,6 @@ class TestErrors(StepsTest):
         self.complain(USAGE, ball, "--subtract", "b.vti", "b.vti", naming=["--subtract", "OUTPUT", "b.vti"])
         self.complain(USAGE, ball, "--unite", "b.png", "--picture", "b.png", "b.vti", naming=["--unite", "--picture"])
 
-    def test_input_is_a_mesh(self):
-        self.succeed("--resolution", 8, self.ball("a.vtp", (0, 0, 0), 1), "a.vti")
-        self.complain(INPUT, "a.vti", "--dilate", 1, "out.vti", naming=["a.vti", ".stl"])
-
 
 class TestHelp(ProgramTest):
     def test_help(self):

@@ -51,6 +51,9 @@ struct Options
   std::string Input;
   std::string Output;
 
+  /// Lower and upper end of the scalars of a volume that make voxels; unset is all but zero.
+  std::optional<std::array<double, 2>> ScalarRange;
+
   std::optional<int> Resolution;
   std::optional<std::array<int, 3>> Dimensions;
   std::optional<double> VoxelSize;
@@ -114,6 +117,9 @@ struct Options
   static Options Parse(const std::vector<std::string>& words);
 
   static std::string GetHelp();
+
+  /// Whether INPUT is a volume, and not a mesh.
+  bool HasVolume() const;
 };
 
 #endif

@@ -11,6 +11,7 @@
 #include "StepExtent.h"
 #include "StepFilter.h"
 #include "Terminal.h"
+#include "VolumeFilter.h"
 #include "VoxelizerFactory.h"
 
 #include "vtkImageData.h"
@@ -56,6 +57,25 @@ void RefuseErrors(Messages& messages)
   }
 }
 
+vtkSmartPointer<vtkVoxelAlgorithm> MakeFirst(const Options& options, Messages& messages)
+{
+  if (options.HasVolume())
+  {
+    return VolumeFilter::Make(options);
+  }
+  return VoxelizerFactory::Make(options, messages);
+}
+
+vtkSmartPointer<vtkDataObject> ReadInput(
+  const Options& options, Messages& messages, Terminal& terminal)
+{
+  if (options.HasVolume())
+  {
+    return ImageReader::Read(options.Input, messages, terminal);
+  }
+  return MeshReader::Read(options.Input, messages, terminal);
+}
+
 vtkSmartPointer<vtkDataObject> ReadStepFile(
   const std::string& file, Messages& messages, Terminal& terminal)
 {
@@ -79,15 +99,14 @@ VoxelPipeline::VoxelPipeline(const Options& options, Messages& messages, Termina
   , Said(messages)
   , Shown(terminal)
 {
-  this->Sources.push_back({ options.Input, VoxelizerFactory::Make(options, messages) });
+  this->Sources.push_back({ options.Input, MakeFirst(options, messages) });
 }
 
 VoxelPipeline::~VoxelPipeline() = default;
 
 void VoxelPipeline::Read()
 {
-  this->Sources.front().Voxelizer->SetInputDataObject(
-    MeshReader::Read(this->Asked.Input, this->Said, this->Shown));
+  this->Sources.front().Maker->SetInputDataObject(ReadInput(this->Asked, this->Said, this->Shown));
   for (const Options::Step& step : this->Asked.Steps)
   {
     this->StepObjects.push_back(
@@ -100,8 +119,8 @@ void VoxelPipeline::Read()
 
 void VoxelPipeline::FitGrid()
 {
-  vtkVoxelizer* first = this->Sources.front().Voxelizer;
-  if (!this->Asked.Steps.empty() && !this->Asked.Reference && !this->Asked.Bounds)
+  auto* first = vtkVoxelizer::SafeDownCast(this->Sources.front().Maker);
+  if (first && !this->Asked.Steps.empty() && !this->Asked.Reference && !this->Asked.Bounds)
   {
     const StepExtent extent(this->Asked.Steps);
     vtkBoundingBox box = MeshReader::GetBounds(first->GetInputDataObject(0, 0));
@@ -126,7 +145,7 @@ void VoxelPipeline::Connect()
   {
     return;
   }
-  vtkVoxelizer* first = this->Sources.front().Voxelizer;
+  vtkVoxelAlgorithm* first = this->Sources.front().Maker;
   first->HostOutputOff();
   first->UpdateInformation();
   RefuseErrors(this->Said);
@@ -170,7 +189,8 @@ vtkImageData* VoxelPipeline::PlaceMask(vtkImageData* mask, const std::string& fi
   {
     InputFile::Refuse(file,
       "it is not on the grid of the voxels: " + there.Describe() + " there, " + here.Describe() +
-        " here; give --reference " + file + ", or a mask on that grid");
+        " here; give " + (this->Asked.HasVolume() ? "" : "--reference " + file + ", or ") +
+        "a mask on that grid");
   }
   (cells ? here.VoxelsToCells() : here).ApplyTo(mask);
   return mask;
@@ -182,7 +202,7 @@ void VoxelPipeline::Run(VoxelOutput::Kind kind)
   {
     for (const Source& source : this->Sources)
     {
-      this->Update(source.Voxelizer, kind, source.File + ": ");
+      this->Update(source.Maker, kind, source.File + ": ");
     }
   }
   this->Update(this->GetResult(), kind, "");
@@ -200,18 +220,28 @@ void VoxelPipeline::Update(
   }
   if (algorithm->GetNumberOfFilledVoxels() == 0)
   {
-    this->Shown.PrintWarning(label + "no voxel is set: " +
-      (vtkVoxelFilter::SafeDownCast(algorithm)
-          ? "the steps leave none"
-          : "the mesh lies outside of the grid, or is thinner than its voxels"));
+    this->Shown.PrintWarning(label + "no voxel is set: " + this->ExplainEmptiness(algorithm));
   }
+}
+
+std::string VoxelPipeline::ExplainEmptiness(vtkVoxelAlgorithm* algorithm) const
+{
+  if (vtkVoxelizer::SafeDownCast(algorithm))
+  {
+    return "the mesh lies outside of the grid, or is thinner than its voxels";
+  }
+  if (algorithm == this->Sources.front().Maker)
+  {
+    return "the volume has no such scalars";
+  }
+  return "the steps leave none";
 }
 
 vtkVoxelAlgorithm* VoxelPipeline::GetResult() const
 {
   if (this->Filters.empty())
   {
-    return this->Sources.front().Voxelizer;
+    return this->Sources.front().Maker;
   }
   return this->Filters.back();
 }
