@@ -279,8 +279,8 @@ const std::vector<Group>& GetGroups()
             o.UpAxis = a.AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } });
           } },
         { "--info", nullptr,
-          "print triangles of all meshes, scalars of a volume, grid, filled voxels and their\n"
-          "volume after the steps, leaking columns of solids, times and the OpenGL\n"
+          "print triangles of all meshes, scalars of a volume, grid, filled voxels and\n"
+          "their volume after the steps, leaking columns of solids, times and the OpenGL\n"
           "renderer, one a line, on the standard output",
           [](Options& o, const Argument&) { o.Info = true; } },
         { "--quiet", nullptr, "no progress bar and no warnings, errors only",
