@@ -205,6 +205,23 @@ class TestFormats(VolumesTest):
                 np.testing.assert_allclose(got.first, image.GetOrigin(), atol=1e-6)
                 np.testing.assert_allclose(got.spacing, SPACING, atol=1e-6)
 
+    def test_slope_and_intercept(self):
+        """Of NIfTI: 300 are Hounsfield units, whatever stands for them in the file."""
+        for name, (slope, intercept) in itertools.product(
+                ("a.nii", "a.nii.gz"), ((1, -1024), (0.5, 0), (0.25, 100.5), (-2, 7), (0, 50))):
+            values = hounsfield()
+            writer = vtkNIFTIImageWriter()
+            writer.SetRescaleSlope(slope)
+            writer.SetRescaleIntercept(intercept)
+            writer.SetInputData(image_of(values))
+            writer.SetFileName(str(self.folder / name))
+            writer.Write()
+            scaled = values * slope + intercept if slope else values
+            with self.subTest(name=name, slope=slope, intercept=intercept):
+                self.check(scaled >= -300, name, "--iso", -300)
+                self.check(scaled != 0, name)
+                self.check(scaled == scaled[3, 3, 3], name, "--label", float(scaled[3, 3, 3]))
+
     def test_own_outputs(self):
         """What the program has written it takes as INPUT."""
         mesh = self.ball("a.vtp", (0.03, 0.02, 0.01), 4.17)
