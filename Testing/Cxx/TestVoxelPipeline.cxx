@@ -1,5 +1,6 @@
 // Proves that the steps of the program vtkvoxelize stay on the GPU: whatever their number, the bits
-// are read back once, for the result, and none are sent there but those of a mask.
+// are read back once, for the result, and none are sent there but those of a mask. Holes, which are
+// found on the host, cost one transfer in each direction.
 
 #include "Messages.h"
 #include "Options.h"
@@ -83,5 +84,9 @@ int TestVoxelPipeline(int argc, char* argv[])
       "--close", "2", "--xor", bunny, "--kernel", "faces6", "--open", "1" })),
     0);
   check("a mask", Run(with({ "--dilate", "2", "--subtract", mask, "--erode", "1" })), 1);
+  // Components are found on the host.
+  const Transfers holes = Run(with({ "--dilate", "1", "--fill-holes" }));
+  checks.Equal("holes: read-backs", holes.ReadBacks, 2);
+  checks.Equal("holes: uploads of bits", holes.Uploads, 1);
   return checks.Passed() ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,7 +1,7 @@
 """Proves what vtkvoxelize promises of its steps, which change voxels one after the other.
 
 Meshes and masks of all formats are joined as NumPy joins their voxels. Kernels are those of
-vtkImageDilateErode3D and of formulas. Any sequence of steps gives what NumPy makes of it on a grid so
+vtkImageDilateErode3D and of formulas, holes and components those that a flood finds. Any sequence of steps gives what NumPy makes of it on a grid so
 wide that no border matters, though the program's grid is a small one. Grids, outputs, reports and
 errors are as the help says.
 
@@ -77,6 +77,54 @@ CHANGES = {
     "--open": lambda bits, *kernel: dilated(eroded(bits, *kernel), *kernel),
     "--close": lambda bits, *kernel: eroded(dilated(bits, *kernel), *kernel),
 }
+
+
+NEIGHBOURS = {6: "faces6", 18: "edges18", 26: "corners26"}
+UNSET_NEIGHBOURS = {6: "corners26", 18: "faces6", 26: "faces6"}
+
+
+def flooded(bits, seeds, kernel):
+    """What can be reached from the seeds on set voxels."""
+    reached = bits & seeds
+    while True:
+        more = dilated(reached, kernel, 1) & bits
+        if (more == reached).all():
+            return reached
+        reached = more
+
+
+def filled(bits, connectivity=26):
+    border = np.ones_like(bits)
+    border[1:-1, 1:-1, 1:-1] = False
+    return ~flooded(~bits, border, UNSET_NEIGHBOURS[connectivity])
+
+
+def largest(bits, connectivity=26):
+    """The first one of those with most voxels, in the order of VTK."""
+    best, left = np.zeros_like(bits), bits.copy()
+    while left.any():
+        seed = np.zeros_like(bits)
+        seed.flat[left.argmax()] = True
+        component = flooded(left, seed, NEIGHBOURS[connectivity])
+        best = component if component.sum() > best.sum() else best
+        left &= ~component
+    return best
+
+
+COMPONENTS = {"--fill-holes": filled, "--keep-largest": largest}
+
+
+def is_endless(steps):
+    """Whether the largest component is asked for when all around is set."""
+    outside = False
+    for step, *_ in steps:
+        if step == "--complement":
+            outside = not outside
+        elif step == "--intersect":
+            outside = False
+        elif step == "--keep-largest" and outside:
+            return True
+    return False
 
 
 def warnings_of(wanted):
@@ -370,6 +418,59 @@ class TestKernels(StepsTest):
         np.testing.assert_array_equal(got.bits, wanted)
 
 
+class TestComponents(StepsTest):
+    GRID = ("--voxel-size", 0.5, "--bounds", "-6,6,-6,6,-6,6")
+
+    def test_hollow_and_loose(self):
+        """A shell with a ball inside, beside a smaller ball."""
+        shell = [self.ball("a.vtp", (0.03, 0.02, 0.01), 4.17), "--subtract", self.ball("b.vtp", (0, 0, 0), 3.1),
+                 "--unite", self.ball("c.vtp", (0.1, 0, 0), 1.1), "--unite", self.ball("d.vtp", (5, 5, 5), 0.9)]
+        alone = self.voxels(*self.GRID, *shell).bits
+        whole, kept = (self.voxels(*self.GRID, *shell, step).bits for step in COMPONENTS)
+        np.testing.assert_array_equal(whole, filled(alone))
+        np.testing.assert_array_equal(kept, largest(alone))
+        self.assertTrue(kept.sum() < alone.sum() < whole.sum())
+        both = self.voxels(*self.GRID, *shell, *COMPONENTS).bits
+        np.testing.assert_array_equal(both, largest(whole))
+        np.testing.assert_array_equal(self.voxels("--voxel-size", 0.5, *shell[:3], "--fill-holes").bits,
+                                      self.voxels("--voxel-size", 0.5, *shell[:1]).bits)
+
+    def noise(self, density=0.45):
+        image = TestProgram.vtkImageData()
+        image.SetDimensions(19, 14, 16)
+        bits = np.random.default_rng(5).random((16, 14, 19)) < density
+        image.GetPointData().SetScalars(numpy_to_vtk(bits.astype(np.uint8).ravel(), deep=True))
+        written(vtkXMLImageDataWriter(), image, self.folder / "noise.vti")
+        far = self.ball("far.vtp", (-50, 0, 0), 1)
+        nothing = far + ": no voxel is set"
+        return bits, ["--reference", "noise.vti", far, "--unite", "noise.vti"], [nothing]
+
+    def test_connectivity(self):
+        for (step, change), density, results in zip(COMPONENTS.items(), (0.92, 0.12), (2, 3), strict=True):
+            bits, words, warnings = self.noise(density)
+            found = set()
+            for connectivity in 6, 18, 26:
+                with self.subTest(step=step, connectivity=connectivity):
+                    got = self.voxels(*words, "--connectivity", connectivity, step, warnings=warnings).bits
+                    np.testing.assert_array_equal(got, change(bits, connectivity))
+                    found.add(got.tobytes())
+            self.assertEqual(len(found), results, "connectivities make a difference")
+            self.assertTrue(bits.tobytes() not in found)
+
+    def test_connectivity_is_for_the_steps_after_it(self):
+        bits, words, warnings = self.noise()
+        got = self.voxels(*words, "--keep-largest", "--connectivity=6", "--fill-holes", "--keep-largest", "--xor",
+                          "noise.vti", "--connectivity", 18, "--keep-largest", warnings=warnings).bits
+        wanted = largest(filled(largest(bits), 6), 6) ^ bits
+        np.testing.assert_array_equal(got, largest(wanted, 18))
+
+    def test_report(self):
+        _, words, warnings = self.noise()
+        wanted = self.voxels(*words, "--keep-largest", warnings=warnings).bits
+        report = self.info(*words, "--keep-largest", "out.vti", warnings=warnings)
+        self.assertEqual(int(report["filled voxels"].split()[0]), wanted.sum())
+
+
 class TestSequences(StepsTest):
     SIZE = 0.5
     WIDE = 18  # more voxels than any of the sequences reaches
@@ -377,13 +478,17 @@ class TestSequences(StepsTest):
     def check(self, meshes, first, steps):
         """The program's result on its own grid is that of a wide one, which has nothing beyond."""
         words = ["--voxel-size", self.SIZE, first]
-        kernel, wanted = "box", meshes[first]
+        kernel, connectivity, wanted = "box", 26, meshes[first]
         for step, *rest in steps:
             words += [step, *rest[:1]]
             if step == "--kernel":
                 kernel = rest[0]
+            elif step == "--connectivity":
+                connectivity = rest[0]
             elif step == "--complement":
                 wanted = ~wanted
+            elif step in COMPONENTS:
+                wanted = COMPONENTS[step](wanted, connectivity)
             elif step in JOINS:
                 wanted = JOINS[step](wanted, meshes[rest[0]])
             else:
@@ -422,6 +527,10 @@ class TestSequences(StepsTest):
             [("--complement",), ("--open", 3), ("--complement",)],
             [("--dilate", 2), ("--complement",), ("--dilate", 2)],
             [("--kernel", "sphere"), ("--close", 4), ("--xor", "a.vtp"), ("--dilate", 1)],
+            [("--fill-holes",)],
+            [("--subtract", "a.vtp"), ("--connectivity", 6), ("--keep-largest",), ("--dilate", 3), ("--fill-holes",)],
+            [("--complement",), ("--fill-holes",)],
+            [("--complement",), ("--fill-holes",), ("--intersect", "b.vtp"), ("--keep-largest",)],
         ]
         for steps in sequences:
             with self.subTest(steps=steps):
@@ -431,12 +540,16 @@ class TestSequences(StepsTest):
     def test_random_sequences(self):
         names = self.balls()[:3]
         meshes = self.meshes(names)
-        for seed in range(40):
+        refused = 0
+        for seed in range(60):
             rng = random.Random(seed)
             steps = [("--unite", "b.vtp")]
             for _ in range(rng.randrange(1, 6)):
-                step = rng.choice([*JOINS, *CHANGES, *CHANGES, "--complement"])
-                if step in JOINS:
+                step = rng.choice([*JOINS, *CHANGES, *CHANGES, *COMPONENTS, "--complement"])
+                if step in COMPONENTS:
+                    steps.append(("--connectivity", rng.choice(list(NEIGHBOURS))))
+                    steps.append((step,))
+                elif step in JOINS:
                     steps.append((step, rng.choice(names)))
                 elif step in CHANGES:
                     steps.append(("--kernel", rng.choice(KERNELS)))
@@ -444,7 +557,12 @@ class TestSequences(StepsTest):
                 else:
                     steps.append((step,))
             with self.subTest(seed=seed, steps=steps):
-                self.check(meshes, "a.vtp", steps)
+                if is_endless(steps):
+                    self.complain(USAGE, "a.vtp", *itertools.chain(*steps), "out.vti", naming=["--keep-largest"])
+                    refused += 1
+                else:
+                    self.check(meshes, "a.vtp", steps)
+        self.assertTrue(0 < refused < 10, refused)
 
 
 class TestGrids(StepsTest):
@@ -473,7 +591,8 @@ class TestGrids(StepsTest):
                 (["--dilate", 3], 4), (["--erode", 3], 1), (["--open", 3], 1), (["--close", 3], 4),
                 (["--dilate", 3, "--erode", 3, "--dilate", 2], 4), (["--dilate", 3, "--dilate", 2], 6),
                 (["--complement", "--erode", 3], 4), (["--complement", "--dilate", 3], 1),
-                (["--complement"], 0)):
+                (["--complement"], 0), (["--fill-holes"], 0), (["--keep-largest"], 0),
+                (["--complement", "--fill-holes"], 1), (["--fill-holes", "--dilate", 2], 3)):
             with self.subTest(steps):
                 warnings = ["the steps leave none"] if steps in (
                     ["--erode", 3], ["--open", 3], ["--complement"]) else []
@@ -595,8 +714,32 @@ class TestErrors(StepsTest):
             with self.subTest(words):
                 self.complain(USAGE, *words, "a.ply", "b.vti", naming=["--kernel", "--dilate"])
 
+    def test_connectivity(self):
+        for value in "", "4", "27", "corners26":
+            with self.subTest(value):
+                self.complain(USAGE, "--connectivity", value, "--fill-holes", "a.ply", "b.vti",
+                              naming=["--connectivity", "6, 18, 26"])
+        for words in (["--connectivity", 6], ["--fill-holes", "--connectivity", 6],
+                      ["--connectivity", 6, "--connectivity", 18, "--keep-largest"],
+                      ["--connectivity", 6, "--dilate", 1]):
+            with self.subTest(words):
+                self.complain(USAGE, *words, "a.ply", "b.vti", naming=["--connectivity", "--fill-holes"])
+        for step in COMPONENTS:
+            self.complain(USAGE, step + "=1", "a.ply", "b.vti", naming=[step, "no value"])
+
+    def test_components_without_end(self):
+        ball = self.ball("a.vtp", (0, 0, 0), 1)
+        words = [ball, "--complement", "--keep-largest", "out.vti"]
+        self.complain(USAGE, *words, naming=["--keep-largest", "--complement", "--bounds", "--padding"])
+        self.succeed("--resolution", 8, *words[:3], "reference.vti", "--padding", 1)
+        for grid in ["--padding", 1], ["--bounds", "-2,2,-2,2,-2,2"], ["--reference", "reference.vti"]:
+            self.succeed(*grid, *words)
+        self.succeed(ball, "--complement", "--complement", "--keep-largest", "out.vti")
+        self.succeed(ball, "--complement", "--intersect", ball, "--keep-largest", "out.vti",
+                     warnings=["the steps leave none"])
+
     def test_outputs_without_steps(self):
-        for step in ["--unite", "c.ply"], ["--complement"], ["--dilate", 2]:
+        for step in ["--unite", "c.ply"], ["--complement"], ["--dilate", 2], ["--fill-holes"]:
             for name in "b.vtp", "b.htg":
                 with self.subTest(step=step, name=name):
                     self.complain(USAGE, "--method", "surface", *step, "a.ply", name, naming=[step[0], name, ".vti"])
@@ -619,15 +762,11 @@ class TestErrors(StepsTest):
         self.complain(USAGE, ball, "--subtract", "b.vti", "b.vti", naming=["--subtract", "OUTPUT", "b.vti"])
         self.complain(USAGE, ball, "--unite", "b.png", "--picture", "b.png", "b.vti", naming=["--unite", "--picture"])
 
-    def test_input_is_a_mesh(self):
-        self.succeed("--resolution", 8, self.ball("a.vtp", (0, 0, 0), 1), "a.vti")
-        self.complain(INPUT, "a.vti", "--dilate", 1, "out.vti", naming=["a.vti", ".stl"])
-
 
 class TestHelp(ProgramTest):
     def test_help(self):
         text = self.succeed("--help")
-        for word in (*JOINS, *CHANGES, *KERNELS, "--complement", "--kernel", ".nii.gz", "in the order given"):
+        for word in (*JOINS, *CHANGES, *KERNELS, *COMPONENTS, "--connectivity", "--complement", "--kernel", ".nii.gz", "in the order given"):
             self.assertIn(word, text)
 
 

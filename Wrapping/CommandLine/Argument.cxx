@@ -50,11 +50,21 @@ int Argument::AsInteger(int lowest, int highest) const
   return value;
 }
 
-double Argument::AsReal(double lowest) const
+double Argument::AsEnd() const
 {
   char* rest = nullptr;
   const double value = std::strtod(this->Text.c_str(), &rest);
-  if (this->Text.empty() || *rest != '\0' || !std::isfinite(value))
+  if (this->Text.empty() || *rest != '\0' || std::isnan(value))
+  {
+    this->Refuse("is not a number");
+  }
+  return value;
+}
+
+double Argument::AsReal(double lowest) const
+{
+  const double value = this->AsEnd();
+  if (std::isinf(value))
   {
     this->Refuse("is not a number");
   }
@@ -63,6 +73,19 @@ double Argument::AsReal(double lowest) const
     this->Refuse(value < 0.0 ? "is negative" : "is zero; it must be positive");
   }
   return value;
+}
+
+std::array<double, 2> Argument::AsRange() const
+{
+  std::array<double, 2> ends{};
+  const auto parts = this->Split(ends.size());
+  std::transform(
+    parts.begin(), parts.end(), ends.begin(), [](const Argument& part) { return part.AsEnd(); });
+  if (ends[0] > ends[1])
+  {
+    this->Refuse("is no range: its lower end is above its upper one");
+  }
+  return ends;
 }
 
 std::vector<Argument> Argument::Split(std::size_t count) const

@@ -31,6 +31,7 @@ public:
   std::string AsFile() const;
   int AsInteger(int lowest, int highest = std::numeric_limits<int>::max()) const;
   double AsReal(double lowest = std::numeric_limits<double>::lowest()) const;
+  std::array<double, 2> AsRange() const;
   std::vector<std::string> AsNames() const;
   int AsChoice(const std::vector<std::pair<std::string, int>>& choices) const;
   std::array<int, 3> AsDimensions() const;
@@ -41,6 +42,9 @@ public:
 
 private:
   [[noreturn]] void Refuse(const std::string& complaint) const;
+
+  /// A number, or an infinity.
+  double AsEnd() const;
 
   /// The values between commas.
   std::vector<Argument> Split(std::size_t count) const;

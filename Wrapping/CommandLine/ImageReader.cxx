@@ -11,12 +11,15 @@
 #include "vtkBinvoxReader.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMetaImageReader.h"
 #include "vtkNIFTIImageReader.h"
+#include "vtkNew.h"
 #include "vtkNrrdReader.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -146,6 +149,28 @@ void OrientNifti(vtkAlgorithm* algorithm, const std::string&, vtkImageData* imag
   SetColumns(image, columns);
 }
 
+/// VTK's reader leaves the scalars as they are stored; a slope of zero stands for none.
+void ScaleNifti(vtkAlgorithm* algorithm, vtkImageData* image)
+{
+  auto* reader = vtkNIFTIImageReader::SafeDownCast(algorithm);
+  const double slope = reader->GetRescaleSlope();
+  const double intercept = reader->GetRescaleIntercept();
+  vtkDataArray* stored = image->GetPointData()->GetScalars();
+  if (!stored || slope == 0.0 || (slope == 1.0 && intercept == 0.0))
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> scaled;
+  scaled->SetName(stored->GetName());
+  scaled->SetNumberOfComponents(stored->GetNumberOfComponents());
+  scaled->SetNumberOfTuples(stored->GetNumberOfTuples());
+  const auto from = vtk::DataArrayValueRange(stored);
+  auto to = vtk::DataArrayValueRange(scaled.Get());
+  std::transform(
+    from.begin(), from.end(), to.begin(), [&](double value) { return value * slope + intercept; });
+  image->GetPointData()->SetScalars(scaled);
+}
+
 /// VTK's reader takes any text for a header, and any number of axes.
 void CheckMetaImage(const std::string& file)
 {
@@ -236,6 +261,8 @@ struct Format
   /// Completes the geometry that the reader gives.
   void (*Orient)(vtkAlgorithm* reader, const std::string& file, vtkImageData* image);
   bool HasDataElsewhere = false;
+  /// Turns what is stored into what it stands for.
+  void (*Scale)(vtkAlgorithm* reader, vtkImageData* image) = nullptr;
 };
 
 constexpr char LegacyExtension[] = ".vtk";
@@ -246,8 +273,8 @@ constexpr Format Formats[] = {
   { ".mhd", MakeReader<vtkMetaImageReader>, CheckMetaImage, OrientMetaImage, true },
   { ".nrrd", MakeReader<vtkNrrdReader>, CheckNrrd, OrientNrrd },
   { ".nhdr", MakeReader<vtkNrrdReader>, CheckNrrd, OrientNrrd, true },
-  { ".nii", MakeReader<vtkNIFTIImageReader>, CheckNifti, OrientNifti },
-  { ".nii.gz", MakeReader<vtkNIFTIImageReader>, nullptr, OrientNifti },
+  { ".nii", MakeReader<vtkNIFTIImageReader>, CheckNifti, OrientNifti, false, ScaleNifti },
+  { ".nii.gz", MakeReader<vtkNIFTIImageReader>, nullptr, OrientNifti, false, ScaleNifti },
   { ".binvox", MakeReader<vtkBinvoxReader>, nullptr, nullptr },
   { LegacyExtension, MakeReader<vtkStructuredPointsReader>, nullptr, nullptr },
 };
@@ -359,6 +386,10 @@ vtkSmartPointer<vtkImageData> ImageReader::Read(
       !HasScalars(image->GetCellData(), image->GetNumberOfCells()))
     {
       InputFile::Refuse(file, "its points have no scalars, nor have its cells");
+    }
+    if (format.Scale)
+    {
+      format.Scale(reader, image);
     }
     return image;
   }

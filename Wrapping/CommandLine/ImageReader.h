@@ -29,7 +29,8 @@ namespace ImageReader
 vtkSmartPointer<vtkImageData> ReadGeometry(const std::string& file, Messages& messages);
 
 /**
- * The same with all arrays, and active scalars of points or cells among them.
+ * The same with all arrays, and active scalars of points or cells among them; those of NIfTI are
+ * scaled by the slope and the intercept of the file.
  */
 vtkSmartPointer<vtkImageData> Read(const std::string& file, Messages& messages, Terminal& terminal);
 

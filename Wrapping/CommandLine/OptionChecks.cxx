@@ -4,12 +4,15 @@
 
 #include "Argument.h"
 #include "FileNames.h"
+#include "ImageReader.h"
 #include "Options.h"
+#include "StepExtent.h"
 #include "VoxelInput.h"
 #include "VoxelOutput.h"
 
 #include "vtkSlicemapSolidVoxelizer.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,9 +22,28 @@ namespace
 using Names = OptionChecks::Names;
 using Solid = vtkSlicemapSolidVoxelizer;
 using Method = Options::MethodType;
+using OptionNames = std::vector<std::string>;
 
-void RefuseTogether(const Names& given, const std::string& one,
-  const std::vector<std::string>& others, const std::string& why)
+///@{
+/// What goes together, or with nothing.
+const OptionNames GridOptions = { "--resolution", "--dimensions", "--voxel-size", "--bounds",
+  "--padding" };
+const OptionNames SolidOptions = { "--mode", "--fill", "--axis" };
+const OptionNames AttributeOptions = { "--attributes", "--texture", "--combine" };
+///@}
+
+/// The first of these options that is given.
+std::optional<std::string> FindGiven(
+  const Names& given, OptionNames options, const OptionNames& more = {})
+{
+  options.insert(options.end(), more.begin(), more.end());
+  const auto found = std::find_if(options.begin(), options.end(),
+    [&](const std::string& option) { return given.count(option) > 0; });
+  return found == options.end() ? std::nullopt : std::make_optional(*found);
+}
+
+void RefuseTogether(
+  const Names& given, const std::string& one, const OptionNames& others, const std::string& why)
 {
   for (const std::string& other : others)
   {
@@ -72,23 +94,62 @@ void CheckFiles(const Options& options)
   addWritten("--picture", options.Picture);
 }
 
+void CheckVolume(const Options& options, const Names& given)
+{
+  const std::string input = "INPUT " + options.Input;
+  if (const auto option = FindGiven(given, AttributeOptions))
+  {
+    Argument::RefuseUsage(*option + " is for a mesh as INPUT, but " + input + " is a volume");
+  }
+  if (const auto option = FindGiven(given, { "--reference" }, GridOptions))
+  {
+    Argument::RefuseUsage(
+      *option + " and " + input + " contradict each other: the grid is that of the volume");
+  }
+  const bool hasMesh = std::any_of(options.Steps.begin(), options.Steps.end(),
+    [](const Options::Step& step)
+    { return !step.File.empty() && !ImageReader::IsImage(step.File); });
+  const auto option = FindGiven(given, { "--method", "--backend", "--separability" }, SolidOptions);
+  if (option && !hasMesh)
+  {
+    Argument::RefuseUsage(
+      *option + " is for meshes, but " + input + " is a volume, and no step has a mesh");
+  }
+  if (VoxelOutput::GetKind(options.Output) != VoxelOutput::Kind::Image)
+  {
+    Argument::RefuseUsage(input + " and OUTPUT " + options.Output +
+      " contradict each other: the voxels of a volume are an image; write a .vti file");
+  }
+}
+
+void CheckInput(const Options& options, const Names& given)
+{
+  const std::string oneRange = "each says which scalars of the volume make voxels";
+  RefuseTogether(given, "--iso", { "--range", "--label" }, oneRange);
+  RefuseTogether(given, "--range", { "--label" }, oneRange);
+  if (options.HasVolume())
+  {
+    CheckVolume(options, given);
+    return;
+  }
+  if (const auto option = FindGiven(given, { "--iso", "--range", "--label" }))
+  {
+    Argument::RefuseUsage(*option + " is for a volume as INPUT, one of " +
+      ImageReader::GetImageExtensions() + ", which INPUT " + options.Input + " is not");
+  }
+}
+
 void CheckMethod(const Options& options, const Names& given)
 {
   const bool isSolid = options.Method == Method::Solid;
-  for (const char* option : { "--mode", "--fill", "--axis" })
+  if (const auto option = FindGiven(given, SolidOptions); option && !isSolid)
   {
-    if (!isSolid && given.count(option))
-    {
-      Argument::RefuseUsage(
-        std::string(option) + " is for solids and does not go with --method surface");
-    }
+    Argument::RefuseUsage(*option + " is for solids and does not go with --method surface");
   }
-  for (const char* option : { "--separability", "--attributes", "--texture", "--combine" })
+  if (const auto option = FindGiven(given, { "--separability" }, AttributeOptions);
+      option && isSolid)
   {
-    if (isSolid && given.count(option))
-    {
-      Argument::RefuseUsage(std::string(option) + " needs --method surface");
-    }
+    Argument::RefuseUsage(*option + " needs --method surface");
   }
   if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
   {
@@ -145,9 +206,7 @@ void CheckTogether(const Options& options, const Names& given)
   const std::string oneSize = "each gives the size of the voxels";
   RefuseTogether(given, "--resolution", { "--dimensions", "--voxel-size" }, oneSize);
   RefuseTogether(given, "--dimensions", { "--voxel-size" }, oneSize);
-  RefuseTogether(given, "--reference",
-    { "--resolution", "--dimensions", "--voxel-size", "--bounds", "--padding" },
-    "the grid is that of the reference image");
+  RefuseTogether(given, "--reference", GridOptions, "the grid is that of the reference image");
 
   if (options.Mode == Solid::MODE_BOUNDARY)
   {
@@ -171,6 +230,7 @@ void CheckTogether(const Options& options, const Names& given)
 void CheckSteps(const Options& options, const Names& given)
 {
   OptionChecks::CheckKernelIsUsed(options);
+  OptionChecks::CheckConnectivityIsUsed(options);
   if (options.Steps.empty())
   {
     return;
@@ -183,6 +243,14 @@ void CheckSteps(const Options& options, const Names& given)
   if (VoxelOutput::GetKind(options.Output) != VoxelOutput::Kind::Image)
   {
     RefuseWithOutput(given, step.c_str(), options, "steps make an image");
+  }
+  const bool gridIsGiven =
+    options.HasVolume() || options.Reference || options.Bounds || options.Padding;
+  if (!gridIsGiven && StepExtent(options.Steps).IsEndless())
+  {
+    Argument::RefuseUsage(
+      "--keep-largest after --complement: the voxels go on beyond any grid that is made for the "
+      "mesh; give one by --bounds, --padding or --reference");
   }
 }
 
@@ -209,10 +277,20 @@ void OptionChecks::CheckKernelIsUsed(const Options& options)
   }
 }
 
+void OptionChecks::CheckConnectivityIsUsed(const Options& options)
+{
+  if (!options.ConnectivityIsUsed)
+  {
+    Argument::RefuseUsage(
+      "--connectivity is for the --fill-holes and --keep-largest after it, but there are none");
+  }
+}
+
 void OptionChecks::Check(const Options& options, const Names& given)
 {
   CheckFiles(options);
   CheckVoxels(options, given);
+  CheckInput(options, given);
   CheckMethod(options, given);
   CheckTogether(options, given);
   CheckOutput(options, given);

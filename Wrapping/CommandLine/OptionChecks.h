@@ -20,8 +20,11 @@ using Names = std::set<std::string>;
 /// Throws Failure with ExitCode::Usage for the first contradiction; `given` are the options' names.
 void Check(const Options& options, const Names& given);
 
-/// Throws the same for a kernel that no step has come after.
+///@{
+/// Throw the same for a kernel or a connectivity that no step has come after.
 void CheckKernelIsUsed(const Options& options);
+void CheckConnectivityIsUsed(const Options& options);
+///@}
 }
 
 #endif

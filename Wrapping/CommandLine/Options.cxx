@@ -30,6 +30,8 @@ using Morphology = vtkVoxelMorphology;
 /// The smallest positive double: a lower bound that leaves out zero.
 constexpr double Positive = std::numeric_limits<double>::denorm_min();
 
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
 ///@{
 /// Voxels to either side of vtkVoxelMorphology's largest sphere, and more than any grid has.
 constexpr int LongestSphereReach = 31;
@@ -64,10 +66,16 @@ void AddMorphology(Options& options, Step::Type what, const Argument& reach)
   options.KernelIsUsed = true;
 }
 
+void AddConnectivity(Options& options, Step::Type what, const Argument& step)
+{
+  options.Steps.push_back({ what, step.GetOption(), {}, 0, 0, options.Connectivity });
+  options.ConnectivityIsUsed = true;
+}
+
 const std::vector<Group>& GetGroups()
 {
   static const std::vector<Group> groups = {
-    { "Grid",
+    { "Grid of meshes",
       {
         { "--resolution", "N", "N voxels along the longest side; voxels are cubes (default: 128)",
           [](Options& o, const Argument& a) { o.Resolution = a.AsInteger(1); } },
@@ -92,7 +100,23 @@ const std::vector<Group>& GetGroups()
           "any of @REFERENCES@",
           [](Options& o, const Argument& a) { o.Reference = a.AsFile(); } },
       } },
-    { "Voxels",
+    { "Volumes as INPUT, whose voxels and grid are those of the image",
+      {
+        { "--iso", "V", "set the voxels whose scalar is V or more",
+          [](Options& o, const Argument& a) {
+            o.ScalarRange = { a.AsReal(), Infinity };
+          } },
+        { "--range", "LOWER,UPPER",
+          "those whose scalar is in this range, both ends included; inf leaves an end open",
+          [](Options& o, const Argument& a) { o.ScalarRange = a.AsRange(); } },
+        { "--label", "V",
+          "those whose scalar is V. Without any of these three: all that are not 0, as of\n"
+          "masks and label maps. Of colours the first component counts.",
+          [](Options& o, const Argument& a) {
+            o.ScalarRange = { a.AsReal(), a.AsReal() };
+          } },
+      } },
+    { "Voxels of meshes",
       {
         { "--method", "METHOD",
           "solid    what lies inside of a closed mesh (default)\n"
@@ -177,7 +201,8 @@ const std::vector<Group>& GetGroups()
     { "Steps, which change the voxels one after the other, in the order given here",
       {
         { "--unite", "FILE",
-          "add the voxels of this file: a mesh, voxelized as INPUT is, or a mask, an image\n"
+          "add the voxels of this file: a mesh, voxelized as INPUT is, or on the grid of a\n"
+          "volume as the options for meshes say; or a mask, an image\n"
           "on the very same grid that is not 0 where voxels are set, one of\n"
           "@MASKS@",
           [](Options& o, const Argument& a) { AddJoin(o, Step::Type::Unite, a); }, true },
@@ -217,6 +242,24 @@ const std::vector<Group>& GetGroups()
             o.KernelIsUsed = false;
           },
           true },
+        { "--fill-holes", nullptr,
+          "set the voxels of all holes: the unset ones that no path of unset ones joins to\n"
+          "the border of the grid",
+          [](Options& o, const Argument& a) { AddConnectivity(o, Step::Type::FillHoles, a); },
+          true },
+        { "--keep-largest", nullptr, "keep the component of most voxels that are set, alone",
+          [](Options& o, const Argument& a) { AddConnectivity(o, Step::Type::KeepLargest, a); },
+          true },
+        { "--connectivity", "N",
+          "6, 18 or 26 (default): the neighbours that a set voxel holds together with, for\n"
+          "the steps after it; unset ones do so by their faces, and with 6 by their corners",
+          [](Options& o, const Argument& a)
+          {
+            OptionChecks::CheckConnectivityIsUsed(o);
+            o.Connectivity = a.AsChoice({ { "6", 6 }, { "18", 18 }, { "26", 26 } });
+            o.ConnectivityIsUsed = false;
+          },
+          true },
       } },
     { "Output",
       {
@@ -237,9 +280,9 @@ const std::vector<Group>& GetGroups()
             o.UpAxis = a.AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } });
           } },
         { "--info", nullptr,
-          "print triangles of all meshes, grid, filled voxels and their volume after the\n"
-          "steps, leaking columns of solids, times and the OpenGL renderer, one a line, on\n"
-          "the standard output",
+          "print triangles of all meshes, scalars of a volume, grid, filled voxels and\n"
+          "their volume after the steps, leaking columns of solids, times and the OpenGL\n"
+          "renderer, one a line, on the standard output",
           [](Options& o, const Argument&) { o.Info = true; } },
         { "--quiet", nullptr, "no progress bar and no warnings, errors only",
           [](Options& o, const Argument&) { o.Quiet = true; } },
@@ -385,14 +428,24 @@ Options Options::Parse(const std::vector<std::string>& words)
   return options;
 }
 
+bool Options::HasVolume() const
+{
+  return ImageReader::IsImage(this->Input);
+}
+
 std::string Options::GetHelp()
 {
   std::ostringstream out;
   out << "Usage: vtkvoxelize [OPTIONS] INPUT OUTPUT\n\n"
          "Turns a mesh into voxels, solid by default, on the graphics processor or what stands in\n"
-         "for it; and joins them with others, or makes them grow and shrink, step by step.\n\n"
+         "for it, or takes those of a volume; and joins them with others, or makes them grow and\n"
+         "shrink, step by step.\n\n"
          "  INPUT             the mesh: "
-      << MeshReader::GetExtensions() << "\n"
+      << MeshReader::GetExtensions()
+      << "\n"
+         "                    or a volume, a mask or a label map:\n"
+         "                    "
+      << ImageReader::GetImageExtensions() << "\n"
       << (VoxelInput::GetExtensions().empty()
              ? std::string()
              : "                    or voxels, to be written as they are: " +
@@ -421,12 +474,14 @@ std::string Options::GetHelp()
        "  vtkvoxelize part.stl rest.vti --subtract drill.stl --kernel sphere --open 2\n"
        "  vtkvoxelize --reference mask.nii.gz liver.stl shell.mha --dilate 3 --subtract "
        "mask.nii.gz\n"
+       "  vtkvoxelize ct.mha bone.vti --iso 300 --keep-largest --fill-holes\n"
+       "  vtkvoxelize labels.nrrd liver.mha --label 6 --subtract tumour.stl\n"
        "\nExit codes:\n"
        "  0  all is well\n"
        "  1  the command line makes no sense\n"
        "  2  INPUT, the reference image, the texture or the file of a step can't be read, INPUT "
        "is\n"
-       "     no mesh, or a mask is on another grid\n"
+       "     neither mesh nor volume, or a mask is on another grid\n"
        "  3  voxelization failed: no OpenGL, a grid too large for the memory, an attribute or\n"
        "     texture coordinates that the mesh has not\n"
        "  4  OUTPUT or the picture can't be written\n"

@@ -35,18 +35,24 @@ struct Options
       Dilate,
       Erode,
       Open,
-      Close
+      Close,
+      FillHoles,
+      KeepLargest
     };
 
     Type What;
-    std::string Option; // as it is given, for messages
-    std::string File;   // of Unite to Xor
-    int Reach = 0;      // of Dilate to Close: voxels to either side
-    int Kernel = 0;     // of these: a constant of vtkVoxelMorphology
+    std::string Option;   // as it is given, for messages
+    std::string File;     // of Unite to Xor
+    int Reach = 0;        // of Dilate to Close: voxels to either side
+    int Kernel = 0;       // of these: a constant of vtkVoxelMorphology
+    int Connectivity = 0; // of FillHoles and KeepLargest: neighbours of a set voxel
   };
 
   std::string Input;
   std::string Output;
+
+  /// Lower and upper end of the scalars of a volume that make voxels; unset is all but zero.
+  std::optional<std::array<double, 2>> ScalarRange;
 
   std::optional<int> Resolution;
   std::optional<std::array<int, 3>> Dimensions;
@@ -81,10 +87,12 @@ struct Options
 
   ///@{
   /**
-   * The kernel for the steps to come, and whether one has had it.
+   * Kernel and connectivity for the steps to come, and whether one has had them.
    */
   int Kernel = 0;
   bool KernelIsUsed = true;
+  int Connectivity = 26;
+  bool ConnectivityIsUsed = true;
   ///@}
 
   std::optional<int> ScalarType;
@@ -109,6 +117,9 @@ struct Options
   static Options Parse(const std::vector<std::string>& words);
 
   static std::string GetHelp();
+
+  /// Whether INPUT is a volume, and not a mesh.
+  bool HasVolume() const;
 };
 
 #endif

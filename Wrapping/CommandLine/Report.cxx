@@ -4,14 +4,20 @@
 
 #include "VoxelPipeline.h"
 
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkPointData.h"
 #include "vtkSlicemapSolidVoxelizer.h"
 
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <numeric>
 #include <sstream>
+#include <vector>
 
 namespace
 {
@@ -33,24 +39,46 @@ std::string WithPrecision(double value, int digits)
   return text.str();
 }
 
-vtkIdType CountTriangles(const VoxelPipeline& pipeline)
+/// The voxelizers of all meshes that are of a class.
+template <typename Voxelizer>
+std::vector<Voxelizer*> GetVoxelizers(const VoxelPipeline& pipeline)
 {
-  vtkIdType count = 0;
+  std::vector<Voxelizer*> voxelizers;
   for (const auto& source : pipeline.GetSources())
   {
-    count += source.Voxelizer->GetNumberOfTriangles();
+    if (auto* voxelizer = Voxelizer::SafeDownCast(source.Maker))
+    {
+      voxelizers.push_back(voxelizer);
+    }
   }
-  return count;
+  return voxelizers;
 }
 
-vtkIdType CountLeakingColumns(const VoxelPipeline& pipeline)
+template <typename Voxelizer>
+std::string Sum(const std::vector<Voxelizer*>& voxelizers, vtkIdType (Voxelizer::*count)())
 {
-  vtkIdType count = 0;
-  for (const auto& source : pipeline.GetSources())
+  const vtkIdType sum = std::accumulate(voxelizers.begin(), voxelizers.end(), vtkIdType(0),
+    [&](vtkIdType before, Voxelizer* voxelizer) { return before + (voxelizer->*count)(); });
+  return std::to_string(sum);
+}
+
+/// Type and range of the scalars of a volume; empty for meshes.
+std::string DescribeScalars(const VoxelPipeline& pipeline)
+{
+  auto* image =
+    vtkImageData::SafeDownCast(pipeline.GetSources().front().Maker->GetInputDataObject(0, 0));
+  if (!image)
   {
-    count += vtkSlicemapSolidVoxelizer::SafeDownCast(source.Voxelizer)->GetNumberOfLeakingColumns();
+    return {};
   }
-  return count;
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  scalars = scalars ? scalars : image->GetCellData()->GetScalars();
+  std::array<double, 2> range;
+  scalars->GetFiniteRange(range.data(), 0);
+  std::ostringstream text;
+  text.precision(10);
+  text << scalars->GetDataTypeAsString() << ", " << range[0] << " to " << range[1];
+  return text.str();
 }
 }
 
@@ -74,7 +102,17 @@ void Report::Describe(const VoxelPipeline& pipeline)
   const double volume = static_cast<double>(filled) * spacing[0] * spacing[1] * spacing[2] *
     std::abs(grid->GetDirectionMatrix()->Determinant());
 
-  this->Add("triangles", std::to_string(CountTriangles(pipeline)));
+  const auto voxelizers = GetVoxelizers<vtkVoxelizer>(pipeline);
+  const auto solid = GetVoxelizers<vtkSlicemapSolidVoxelizer>(pipeline);
+  const std::string scalars = DescribeScalars(pipeline);
+  if (!voxelizers.empty())
+  {
+    this->Add("triangles", Sum(voxelizers, &vtkVoxelizer::GetNumberOfTriangles));
+  }
+  if (!scalars.empty())
+  {
+    this->Add("scalars", scalars);
+  }
   this->Add("voxels", size);
   this->Add("spacing", Join(spacing, 3));
   this->Add("origin", Join(grid->GetOrigin(), 3));
@@ -93,13 +131,15 @@ void Report::Describe(const VoxelPipeline& pipeline)
     std::to_string(filled) + " (" + WithPrecision(100.0 * static_cast<double>(filled) / voxels, 3) +
       " %)");
   this->Add("filled volume", WithPrecision(volume, 8));
-  vtkVoxelizer* voxelizer = pipeline.GetSources().front().Voxelizer;
-  if (vtkSlicemapSolidVoxelizer::SafeDownCast(voxelizer))
+  if (!solid.empty())
   {
-    this->Add("leaking columns", std::to_string(CountLeakingColumns(pipeline)));
+    this->Add("leaking columns", Sum(solid, &vtkSlicemapSolidVoxelizer::GetNumberOfLeakingColumns));
   }
-  this->Add(
-    "backend", voxelizer->GetUsedBackend() == vtkVoxelizer::BACKEND_COMPUTE ? "compute" : "raster");
+  if (!voxelizers.empty())
+  {
+    const int backend = voxelizers.front()->GetUsedBackend();
+    this->Add("backend", backend == vtkVoxelizer::BACKEND_COMPUTE ? "compute" : "raster");
+  }
   this->Add("renderer", result->GetRendererName());
 }
 

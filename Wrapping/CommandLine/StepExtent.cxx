@@ -49,6 +49,13 @@ void StepExtent::Add(const Options::Step& step)
         this->Grow(-step.Reach);
       }
       break;
+    case Type::FillHoles:
+      // All holes are holes of the box; set voxels around it must be seen to enclose them.
+      this->HasNeighbours = this->HasNeighbours || this->IsSetOutside;
+      break;
+    case Type::KeepLargest:
+      this->Endless = this->Endless || this->IsSetOutside;
+      break;
   }
   this->Additions.push_back(adds);
 }

@@ -29,6 +29,9 @@ public:
   /// Voxels on every side of the box of all meshes that add, so that no border changes the result.
   int GetMargin() const;
 
+  /// Whether a step compares the sizes of components of which one has no end.
+  bool IsEndless() const { return this->Endless; }
+
 private:
   void Add(const Options::Step& step);
   void Grow(std::int64_t reach);
@@ -36,6 +39,7 @@ private:
   std::vector<bool> Additions;
   bool IsSetOutside = false;
   bool HasNeighbours = false;
+  bool Endless = false;
   std::int64_t Reach = 0; // of the box, beyond that of the meshes
   std::int64_t Margin = 0;
 };

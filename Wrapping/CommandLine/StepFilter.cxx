@@ -3,6 +3,7 @@
 #include "StepFilter.h"
 
 #include "vtkVoxelBoolean.h"
+#include "vtkVoxelConnectivity.h"
 #include "vtkVoxelMorphology.h"
 
 namespace
@@ -34,6 +35,14 @@ vtkSmartPointer<vtkVoxelFilter> MakeMorphology(int operation, const Options::Ste
   }
   return filter;
 }
+
+vtkSmartPointer<vtkVoxelFilter> MakeConnectivity(int operation, const Options::Step& step)
+{
+  auto filter = vtkSmartPointer<vtkVoxelConnectivity>::New();
+  filter->SetOperation(operation);
+  filter->SetConnectivity(step.Connectivity);
+  return filter;
+}
 }
 
 vtkSmartPointer<vtkVoxelFilter> StepFilter::Make(const Options::Step& step)
@@ -58,6 +67,10 @@ vtkSmartPointer<vtkVoxelFilter> StepFilter::Make(const Options::Step& step)
       return MakeMorphology(vtkVoxelMorphology::OPERATION_OPEN, step);
     case Type::Close:
       return MakeMorphology(vtkVoxelMorphology::OPERATION_CLOSE, step);
+    case Type::FillHoles:
+      return MakeConnectivity(vtkVoxelConnectivity::OPERATION_FILL_HOLES, step);
+    case Type::KeepLargest:
+      return MakeConnectivity(vtkVoxelConnectivity::OPERATION_KEEP_LARGEST, step);
   }
   return nullptr;
 }

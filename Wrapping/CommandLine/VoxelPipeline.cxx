@@ -11,6 +11,7 @@
 #include "StepExtent.h"
 #include "StepFilter.h"
 #include "Terminal.h"
+#include "VolumeFilter.h"
 #include "VoxelizerFactory.h"
 
 #include "vtkImageData.h"
@@ -20,6 +21,7 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelizer.h"
 
+#include <algorithm>
 #include <array>
 
 namespace
@@ -37,16 +39,13 @@ bool AreAlike(const vtkVoxelGrid& one, const vtkVoxelGrid& other)
   const std::array<glm::ivec3, 4> corners = { glm::ivec3(0), glm::ivec3(last.x, 0, 0),
     glm::ivec3(0, last.y, 0), glm::ivec3(0, 0, last.z) };
   const auto otherToOne = one.GetWorldToIndex() * other.GetIndexToWorld();
-  for (const glm::ivec3& corner : corners)
-  {
-    const glm::dvec4 found = otherToOne * glm::dvec4(glm::dvec3(other.GetFirst() + corner), 1.0);
-    const glm::dvec3 wanted(one.GetFirst() + corner);
-    if (!(glm::length(glm::dvec3(found) - wanted) < tolerance))
+  return std::all_of(corners.begin(), corners.end(),
+    [&](const glm::ivec3& corner)
     {
-      return false;
-    }
-  }
-  return true;
+      const glm::dvec4 found = otherToOne * glm::dvec4(glm::dvec3(other.GetFirst() + corner), 1.0);
+      const glm::dvec3 wanted(one.GetFirst() + corner);
+      return glm::length(glm::dvec3(found) - wanted) < tolerance;
+    });
 }
 
 void RefuseErrors(Messages& messages)
@@ -56,6 +55,25 @@ void RefuseErrors(Messages& messages)
   {
     throw Failure(ExitCode::Voxelization, errors.front());
   }
+}
+
+vtkSmartPointer<vtkVoxelAlgorithm> MakeFirst(const Options& options, Messages& messages)
+{
+  if (options.HasVolume())
+  {
+    return VolumeFilter::Make(options);
+  }
+  return VoxelizerFactory::Make(options, messages);
+}
+
+vtkSmartPointer<vtkDataObject> ReadInput(
+  const Options& options, Messages& messages, Terminal& terminal)
+{
+  if (options.HasVolume())
+  {
+    return ImageReader::Read(options.Input, messages, terminal);
+  }
+  return MeshReader::Read(options.Input, messages, terminal);
 }
 
 vtkSmartPointer<vtkDataObject> ReadStepFile(
@@ -81,15 +99,14 @@ VoxelPipeline::VoxelPipeline(const Options& options, Messages& messages, Termina
   , Said(messages)
   , Shown(terminal)
 {
-  this->Sources.push_back({ options.Input, VoxelizerFactory::Make(options, messages) });
+  this->Sources.push_back({ options.Input, MakeFirst(options, messages) });
 }
 
 VoxelPipeline::~VoxelPipeline() = default;
 
 void VoxelPipeline::Read()
 {
-  this->Sources.front().Voxelizer->SetInputDataObject(
-    MeshReader::Read(this->Asked.Input, this->Said, this->Shown));
+  this->Sources.front().Maker->SetInputDataObject(ReadInput(this->Asked, this->Said, this->Shown));
   for (const Options::Step& step : this->Asked.Steps)
   {
     this->StepObjects.push_back(
@@ -105,8 +122,8 @@ void VoxelPipeline::Read()
 
 void VoxelPipeline::FitGrid()
 {
-  vtkVoxelizer* first = this->Sources.front().Voxelizer;
-  if (!this->Asked.Steps.empty() && !this->Asked.Reference && !this->Asked.Bounds)
+  auto* first = vtkVoxelizer::SafeDownCast(this->Sources.front().Maker);
+  if (first && !this->Asked.Steps.empty() && !this->Asked.Reference && !this->Asked.Bounds)
   {
     const StepExtent extent(this->Asked.Steps);
     vtkBoundingBox box = MeshReader::GetBounds(first->GetInputDataObject(0, 0));
@@ -131,7 +148,7 @@ void VoxelPipeline::Connect()
   {
     return;
   }
-  vtkVoxelizer* first = this->Sources.front().Voxelizer;
+  vtkVoxelAlgorithm* first = this->Sources.front().Maker;
   first->HostOutputOff();
   first->UpdateInformation();
   RefuseErrors(this->Said);
@@ -174,7 +191,8 @@ vtkImageData* VoxelPipeline::PlaceMask(vtkImageData* mask, const std::string& fi
   {
     InputFile::Refuse(file,
       "it is not on the grid of the voxels: " + there.Describe() + " there, " + here.Describe() +
-        " here; give --reference " + file + ", or a mask on that grid");
+        " here; give " + (this->Asked.HasVolume() ? "" : "--reference " + file + ", or ") +
+        "a mask on that grid");
   }
   (cells ? here.VoxelsToCells() : here).ApplyTo(mask);
   return mask;
@@ -186,7 +204,7 @@ void VoxelPipeline::Run(VoxelOutput::Kind kind)
   {
     for (const Source& source : this->Sources)
     {
-      this->Update(source.Voxelizer, kind, source.File + ": ");
+      this->Update(source.Maker, kind, source.File + ": ");
     }
   }
   this->Update(this->GetResult(), kind, "");
@@ -204,18 +222,28 @@ void VoxelPipeline::Update(
   }
   if (algorithm->GetNumberOfFilledVoxels() == 0)
   {
-    this->Shown.PrintWarning(label + "no voxel is set: " +
-      (vtkVoxelFilter::SafeDownCast(algorithm)
-          ? "the steps leave none"
-          : "the mesh lies outside of the grid, or is thinner than its voxels"));
+    this->Shown.PrintWarning(label + "no voxel is set: " + this->ExplainEmptiness(algorithm));
   }
+}
+
+std::string VoxelPipeline::ExplainEmptiness(vtkVoxelAlgorithm* algorithm) const
+{
+  if (vtkVoxelizer::SafeDownCast(algorithm))
+  {
+    return "the mesh lies outside of the grid, or is thinner than its voxels";
+  }
+  if (algorithm == this->Sources.front().Maker)
+  {
+    return "the volume has no such scalars";
+  }
+  return "the steps leave none";
 }
 
 vtkVoxelAlgorithm* VoxelPipeline::GetResult() const
 {
   if (this->Filters.empty())
   {
-    return this->Sources.front().Voxelizer;
+    return this->Sources.front().Maker;
   }
   return this->Filters.back();
 }

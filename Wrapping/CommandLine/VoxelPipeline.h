@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file VoxelPipeline.h
- * From files to voxels: the voxelizers of all meshes, and the filters that the steps ask for.
+ * From files to voxels: the voxelizers of all meshes, or what takes those of a volume, and the
+ * filters that the steps ask for.
  */
 
 #ifndef VoxelPipeline_h
@@ -25,19 +26,19 @@ class vtkVoxelFilter;
 class vtkVoxelizer;
 
 /**
- * The voxels stay on the GPU up to the last filter, which alone reads its result back. All
- * functions but the getters throw Failure.
+ * The voxels stay on the GPU up to the last filter, which alone reads its result back, but for
+ * those of holes and components. All functions but the getters throw Failure.
  */
 class VoxelPipeline
 {
 public:
-  /// Reads what the options have beside meshes and masks.
+  /// Reads what the options have beside meshes, volumes and masks.
   VoxelPipeline(const Options& options, Messages& messages, Terminal& terminal);
   ~VoxelPipeline();
   VoxelPipeline(const VoxelPipeline&) = delete;
   void operator=(const VoxelPipeline&) = delete;
 
-  /// Reads meshes and masks, and connects all.
+  /// Reads these, and connects all.
   void Read();
 
   /// Makes voxels of this kind, which there may be of pipelines without steps.
@@ -46,14 +47,14 @@ public:
   /// The last one, whose output are the voxels.
   vtkVoxelAlgorithm* GetResult() const;
 
-  /// A mesh and what makes voxels of it.
+  /// A mesh, or a volume as INPUT, and what makes voxels of it.
   struct Source
   {
     std::string File;
-    vtkSmartPointer<vtkVoxelizer> Voxelizer;
+    vtkSmartPointer<vtkVoxelAlgorithm> Maker; // a vtkVoxelizer for meshes
   };
 
-  /// Those of all meshes, INPUT first.
+  /// INPUT, and then all meshes of steps.
   const std::vector<Source>& GetSources() const { return this->Sources; }
 
   /// The grid of the voxels, whatever their kind, as an image without arrays.
@@ -65,6 +66,7 @@ private:
   vtkVoxelizer* AddSource(vtkDataObject* mesh, const std::string& file);
   vtkImageData* PlaceMask(vtkImageData* mask, const std::string& file);
   void Update(vtkVoxelAlgorithm* algorithm, VoxelOutput::Kind kind, const std::string& label);
+  std::string ExplainEmptiness(vtkVoxelAlgorithm* algorithm) const;
 
   const Options& Asked;
   Messages& Said;

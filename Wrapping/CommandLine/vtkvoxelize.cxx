@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The program vtkvoxelize: reads a mesh, voxelizes it, writes the voxels.
+// The program vtkvoxelize: reads a mesh or a volume, makes voxels of it, writes the voxels.
 #include "Failure.h"
 #include "FileNames.h"
 #include "Messages.h"
