@@ -244,6 +244,31 @@ Mesh Sphere(const Vector& centre, double radius, int resolution)
 }
 
 //------------------------------------------------------------------------------------------------
+namespace
+{
+/// A grid of points that is closed both ways; `pointAt` takes the angles along and around it.
+template <typename PointAt>
+Mesh ClosedTube(int around, int along, const PointAt& pointAt)
+{
+  const double fullTurn = 2.0 * vtkMath::Pi();
+  std::vector<Vector> points;
+  Polygons triangles;
+  for (int step = 0; step < along; ++step)
+  {
+    for (int turn = 0; turn < around; ++turn)
+    {
+      points.push_back(pointAt(fullTurn * step / along, fullTurn * turn / around));
+      const vtkIdType here = static_cast<vtkIdType>(step) * around;
+      const vtkIdType there = static_cast<vtkIdType>((step + 1) % along) * around;
+      const vtkIdType next = (turn + 1) % around;
+      triangles.push_back({ here + turn, here + next, there + next });
+      triangles.push_back({ here + turn, there + next, there + turn });
+    }
+  }
+  return MakeMesh(points, triangles);
+}
+}
+
 Mesh TorusKnot(double size, int around, int along)
 {
   // The (2, 3) knot on a torus; a tube about it, its frame made of the knot's own derivative.
@@ -253,41 +278,38 @@ Mesh TorusKnot(double size, int around, int along)
     return { radius * std::cos(2.0 * t), radius * std::sin(2.0 * t),
       size * 0.1 * std::sin(3.0 * t) };
   };
-  const double fullTurn = 2.0 * vtkMath::Pi();
-  std::vector<Vector> points;
-  Polygons triangles;
-  for (int step = 0; step < along; ++step)
-  {
-    const double t = fullTurn * step / along;
-    const Vector centre = knot(t);
-    const Vector before = knot(t - 1e-3);
-    const Vector after = knot(t + 1e-3);
-    double tangent[3];
-    double normal[3];
-    double binormal[3];
-    vtkMath::Subtract(after.data(), before.data(), tangent);
-    vtkMath::Normalize(tangent);
-    vtkMath::Cross(tangent, centre.data(), binormal);
-    vtkMath::Normalize(binormal);
-    vtkMath::Cross(binormal, tangent, normal);
-    for (int turn = 0; turn < around; ++turn)
+  return ClosedTube(around, along,
+    [&](double t, double angle)
     {
-      const double angle = fullTurn * turn / around;
+      const Vector centre = knot(t);
+      const Vector before = knot(t - 1e-3);
+      const Vector after = knot(t + 1e-3);
+      double tangent[3];
+      double normal[3];
+      double binormal[3];
+      vtkMath::Subtract(after.data(), before.data(), tangent);
+      vtkMath::Normalize(tangent);
+      vtkMath::Cross(tangent, centre.data(), binormal);
+      vtkMath::Normalize(binormal);
+      vtkMath::Cross(binormal, tangent, normal);
       Vector point;
       for (int axis = 0; axis < 3; ++axis)
       {
         point[axis] = centre[axis] +
           size * 0.06 * (std::cos(angle) * normal[axis] + std::sin(angle) * binormal[axis]);
       }
-      points.push_back(point);
-      const vtkIdType here = static_cast<vtkIdType>(step) * around;
-      const vtkIdType there = static_cast<vtkIdType>((step + 1) % along) * around;
-      const vtkIdType next = (turn + 1) % around;
-      triangles.push_back({ here + turn, here + next, there + next });
-      triangles.push_back({ here + turn, there + next, there + turn });
-    }
-  }
-  return MakeMesh(points, triangles);
+      return point;
+    });
+}
+
+Mesh Torus(double ring, double section, int around, int along)
+{
+  return ClosedTube(around, along,
+    [&](double t, double angle) -> Vector
+    {
+      const double radius = ring + section * std::cos(angle);
+      return { radius * std::cos(t), radius * std::sin(t), -section * std::sin(angle) };
+    });
 }
 
 //------------------------------------------------------------------------------------------------

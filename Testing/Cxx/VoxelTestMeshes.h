@@ -39,6 +39,8 @@ Mesh QuadBox(const Vector& low, const Vector& high);                     ///< 6 
 Mesh Tetrahedron(const std::array<Vector, 4>& corners);                  ///< oriented outwards
 Mesh Sphere(const Vector& centre, double radius, int resolution = 24);
 Mesh TorusKnot(double size, int around, int along); ///< 2 * around * along triangles
+/// A torus around the z axis; 2 * around * along triangles.
+Mesh Torus(double ring, double section, int around, int along);
 /// A prism over a star with that many spikes; its two ends are non-convex n-gons.
 Mesh StarPrism(const Vector& centre, double radius, double height, int spikes);
 /// Spheres inside each other, alternately solid and hollow under the parity rule.
