@@ -3,24 +3,34 @@
 #include "vtkDepthBufferVoxelizer.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDensityArrays.h"
 #include "vtkDepthBuffers.h"
 #include "vtkDepthPropPainter.h"
 #include "vtkDepthView.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkPointData.h"
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 #include "vtkSlicemap.h"
+#include "vtkSlicemapSolidVoxelizer.h"
 #include "vtkSmartPointer.h"
 #include "vtkVoxelContext.h"
 #include "vtkVoxelContextScope.h"
 #include "vtkVoxelGrid.h"
+#include "vtkVoxelLargeArray.h"
 #include "vtkVoxelMesh.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkDepthBufferVoxelizer);
@@ -29,6 +39,7 @@ struct vtkDepthBufferVoxelizer::Scene
 {
   std::vector<vtkSmartPointer<vtkProp>> Props;
   vtkWeakPointer<vtkRenderer> Renderer;
+  std::vector<glm::dvec3> Views;
   vtkDepthBuffers Buffers;
   glm::ivec3 First{ 0 };       // voxel of the grid that the buffers were made for
   bool IsAskedForTime = false; // a scene may show what this filter made of it
@@ -92,6 +103,96 @@ void vtkDepthBufferVoxelizer::SetRenderer(vtkRenderer* renderer)
 vtkRenderer* vtkDepthBufferVoxelizer::GetRenderer()
 {
   return this->Drawn->Renderer;
+}
+
+void vtkDepthBufferVoxelizer::AddView(double x, double y, double z)
+{
+  this->Drawn->Views.emplace_back(x, y, z);
+  this->Modified();
+}
+
+void vtkDepthBufferVoxelizer::RemoveAllViews()
+{
+  if (!this->Drawn->Views.empty())
+  {
+    this->Drawn->Views.clear();
+    this->Modified();
+  }
+}
+
+int vtkDepthBufferVoxelizer::GetNumberOfViews()
+{
+  return static_cast<int>(this->Drawn->Views.size());
+}
+
+int vtkDepthBufferVoxelizer::GetNumberOfDepthBufferPairs()
+{
+  return this->GetSlicemap() ? static_cast<int>(this->Drawn->Buffers.GetPairs().size()) : 0;
+}
+
+bool vtkDepthBufferVoxelizer::GetDepthBuffer(int pair, int side, vtkImageData* image)
+{
+  const bool exists = pair >= 0 && pair < this->GetNumberOfDepthBufferPairs() &&
+    (side == BUFFER_NEAR || side == BUFFER_FAR) && image;
+  if (!exists)
+  {
+    vtkErrorMacro("There is no depth buffer "
+      << side << " of pair " << pair << ": the last run made "
+      << this->GetNumberOfDepthBufferPairs() << " pairs of two.");
+    return false;
+  }
+  const vtkVoxelContext::Scope scope(this->GetContext());
+  const auto& buffers = this->Drawn->Buffers.GetPairs()[pair];
+  if (!scope || !buffers.NearDepth)
+  {
+    vtkErrorMacro("The context of the depth buffers is gone. Update the filter first.");
+    return false;
+  }
+  const bool isNear = side == BUFFER_NEAR;
+  const auto depths = this->Drawn->Buffers.ReadDepth(
+    buffers, isNear ? vtkDepthBuffers::Side::Near : vtkDepthBuffers::Side::Far);
+  const auto length = static_cast<float>(buffers.View.GetViewport().z);
+  image->Initialize();
+  image->SetDimensions(buffers.View.Size.x, buffers.View.Size.y, 1);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  image->GetPointData()->GetScalars()->SetName("Depth");
+  std::transform(depths.begin(), depths.end(), static_cast<float*>(image->GetScalarPointer()),
+    [&](float depth) { return (isNear ? depth : 1.0f - depth) * length - 0.5f; });
+  return true;
+}
+
+double vtkDepthBufferVoxelizer::GetHiddenVolumeEstimate()
+{
+  vtkSlicemap* result = this->GetSlicemap();
+  vtkDataObject* input = this->GetInputDataObject(0, 0);
+  const bool comparable = result && input && this->OutputMode != OUTPUT_MODE_SURFACE &&
+    this->Drawn->Props.empty() && !this->Drawn->Renderer;
+  if (!comparable)
+  {
+    return -1.0;
+  }
+  vtkNew<vtkImageData> grid;
+  result->GetGrid().ApplyTo(grid);
+  vtkNew<vtkSlicemapSolidVoxelizer> parity;
+  parity->SetInputDataObject(input);
+  parity->SetReferenceImage(grid);
+  parity->SetRenderWindow(this->GetRenderWindow());
+  parity->HostOutputOff();
+  parity->Update();
+  vtkSlicemap* solid = vtkSlicemap::GetFromImage(parity->GetOutput());
+  vtkNew<vtkSlicemap> hidden;
+  hidden->SetContext(this->GetContext());
+  {
+    const vtkVoxelContext::Scope scope(this->GetContext());
+    if (!solid || !scope || !hidden->Allocate(result->GetGrid()))
+    {
+      return -1.0;
+    }
+    result->GetBuffer().CopyTo(hidden->GetBuffer(), 0, 0, result->GetBuffer().GetSize());
+  }
+  return hidden->Difference(solid)
+    ? hidden->GetNumberOfFilledVoxels() * result->GetGrid().GetVoxelVolume()
+    : -1.0;
 }
 
 vtkMTimeType vtkDepthBufferVoxelizer::GetMTime()
@@ -184,9 +285,13 @@ void vtkDepthBufferVoxelizer::MakeBuffers(const vtkVoxelGrid& whole)
       buffers.Add(axis, vtkDepthView::AlongAxis(whole, axis));
     }
   }
+  for (const glm::dvec3& direction : this->Drawn->Views)
+  {
+    buffers.Add(vtkDepthBuffers::Oblique, vtkDepthView::AlongDirection(whole, direction));
+  }
 }
 
-void vtkDepthBufferVoxelizer::Prepare(const vtkVoxelGrid& whole)
+void vtkDepthBufferVoxelizer::CheckParameters()
 {
   if (!this->Axes[0] && !this->Axes[1] && !this->Axes[2])
   {
@@ -197,6 +302,25 @@ void vtkDepthBufferVoxelizer::Prepare(const vtkVoxelGrid& whole)
     throw std::runtime_error(
       "Connectivity is " + std::to_string(this->Connectivity) + "; it must be 4 or 8.");
   }
+  if (this->OutputMode == OUTPUT_MODE_DENSITY && !this->GetHostOutput())
+  {
+    throw std::runtime_error("Densities are for the host only. Turn HostOutput on.");
+  }
+  for (const glm::dvec3& view : this->Drawn->Views)
+  {
+    const double length = glm::length(view);
+    if (!(length > 0.0) || !std::isfinite(length))
+    {
+      throw std::runtime_error("A view has the direction (" + std::to_string(view.x) + ", " +
+        std::to_string(view.y) + ", " + std::to_string(view.z) +
+        "), which points nowhere. Give it a length.");
+    }
+  }
+}
+
+void vtkDepthBufferVoxelizer::Prepare(const vtkVoxelGrid& whole)
+{
+  this->CheckParameters();
   const auto props = this->GetCheckedProps();
   if (props.empty() && this->GetNumberOfInputConnections(0) == 0)
   {
@@ -236,13 +360,39 @@ bool vtkDepthBufferVoxelizer::Voxelize(
   return this->ReportProgress(1.0);
 }
 
+std::int64_t vtkDepthBufferVoxelizer::GetBytesOfArrays()
+{
+  return this->OutputMode == OUTPUT_MODE_DENSITY ? static_cast<std::int64_t>(sizeof(float)) : 0;
+}
+
+bool vtkDepthBufferVoxelizer::AddArrays(
+  vtkVoxelMesh&, const vtkVoxelGrid& grid, vtkDataSetAttributes* voxels)
+{
+  if (this->OutputMode != OUTPUT_MODE_DENSITY)
+  {
+    return true;
+  }
+  const auto density =
+    vtkVoxelNewLargeArray<vtkFloatArray>(vtkDensityArrays::DensityName, grid.GetNumberOfVoxels());
+  if (!density)
+  {
+    throw std::runtime_error("There is no memory for the density of " +
+      std::to_string(grid.GetNumberOfVoxels()) + " voxels. Use fewer voxels.");
+  }
+  this->Drawn->Buffers.ReadDensity(
+    grid, grid.GetFirst() - this->Drawn->First, density->GetPointer(0));
+  voxels->AddArray(density);
+  return true;
+}
+
 void vtkDepthBufferVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const modes[] = { "Solid", "Surface" };
+  const char* const modes[] = { "Solid", "Surface", "Density" };
   os << indent << "NumberOfProps: " << this->GetNumberOfProps() << "\n";
   os << indent << "Renderer: " << this->GetRenderer() << "\n";
   os << indent << "Axes: " << this->Axes[0] << " " << this->Axes[1] << " " << this->Axes[2] << "\n";
+  os << indent << "NumberOfViews: " << this->GetNumberOfViews() << "\n";
   os << indent << "OutputMode: " << modes[this->OutputMode] << "\n";
   os << indent << "Connectivity: " << this->Connectivity << "\n";
 }

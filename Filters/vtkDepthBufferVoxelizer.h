@@ -12,9 +12,10 @@
  *
  * Aggeliki Karabassi, Georgios Papaioannou, Theoharis Theoharis: A Fast Depth-Buffer-Based
  * Voxelization Algorithm. Journal of Graphics Tools 4(4), 1999, pp. 5-10; section 2 (solid), 4.1
- * (surface).
+ * (surface), 4.2 (density).
  *
- * Its cost is that of drawing the scene, and then depends on the number of voxels alone.
+ * Its cost is that of drawing the scene, and then depends on the number of voxels alone. For
+ * several resolutions run it at each, or vtkVoxelDensityNormals with Downsample on the finest.
  *
  * <b>Limits.</b> What no buffer sees is filled: cavities inside, and hollows that are hidden along
  * all axes. What is convex, or convex along each column of one of the axes (a torus along its axis
@@ -32,7 +33,8 @@
  *
  * <b>Errors.</b> Those of vtkVoxelizer; neither an input nor a prop; a prop that is invisible, has
  * no bounds, or is translucent; a renderer in another window than RenderWindow; no axis; buffers
- * larger than OpenGL allows.
+ * larger than OpenGL allows; a view without a
+ * direction; Density without HostOutput.
  *
  * @sa vtkSlicemapSolidVoxelizer vtkHybridSurfaceVoxelizer
  */
@@ -59,7 +61,8 @@ public:
   enum OutputModeType
   {
     OUTPUT_MODE_SOLID = 0,
-    OUTPUT_MODE_SURFACE = 1
+    OUTPUT_MODE_SURFACE = 1,
+    OUTPUT_MODE_DENSITY = 2
   };
 
   ///@{
@@ -93,14 +96,32 @@ public:
 
   ///@{
   /**
-   * Solid (default), or its Surface: of each column the voxels from both of its ends on as far
-   * inwards as the ends of the neighbouring columns lie, one at least. Where the grid cuts the
-   * solid, the cut is surface.
+   * More pairs of buffers, which look along any direction in world coordinates, and carve what the
+   * axes can't see into. Their pixels are as large as the smallest spacing. A cavity keeps a margin
+   * of a pixel or two, so that no voxel is lost to a slope or to a ridge between pixels (up to 60
+   * degrees steep, as the view sees it). A direction without a length is an error when the filter
+   * runs. Default: none.
    */
-  vtkSetClampMacro(OutputMode, int, OUTPUT_MODE_SOLID, OUTPUT_MODE_SURFACE);
+  void AddView(double x, double y, double z);
+  void RemoveAllViews();
+  int GetNumberOfViews();
+  ///@}
+
+  ///@{
+  /**
+   * - Solid (default).
+   * - Surface: of each column the voxels from both of its ends on as far inwards as the ends of the
+   *   neighbouring columns lie, one at least. Where the grid cuts the solid, the cut is surface.
+   *   With views, the voxels of the solid that have a neighbour outside.
+   * - Density: the solid, and beside the occupancy an array "Density" of floats from 0 to 1, the
+   *   product over the axes of how much of the voxel's length is inside. That is an estimate of the
+   *   voxel's part that is inside, for convex shapes; views don't change it. It needs HostOutput.
+   */
+  vtkSetClampMacro(OutputMode, int, OUTPUT_MODE_SOLID, OUTPUT_MODE_DENSITY);
   vtkGetMacro(OutputMode, int);
   void SetOutputModeToSolid() { this->SetOutputMode(OUTPUT_MODE_SOLID); }
   void SetOutputModeToSurface() { this->SetOutputMode(OUTPUT_MODE_SURFACE); }
+  void SetOutputModeToDensity() { this->SetOutputMode(OUTPUT_MODE_DENSITY); }
   ///@}
 
   ///@{
@@ -113,6 +134,31 @@ public:
   vtkGetMacro(Connectivity, int);
   ///@}
 
+  enum BufferSide
+  {
+    BUFFER_NEAR = 0,
+    BUFFER_FAR = 1
+  };
+
+  ///@{
+  /**
+   * The depth buffers of the last run: pairs along axes in the order of x, y and z, then views,
+   * each with two sides. GetDepthBuffer gives `image` one pixel a column and float scalars "Depth",
+   * in voxels (of views, in pixels) from the centre of the first voxel towards the far side. Where
+   * there is nothing, the near side has a depth behind all voxels, the far side one before them.
+   * Returns false after one error when there is no such buffer.
+   */
+  int GetNumberOfDepthBufferPairs();
+  bool GetDepthBuffer(int pair, int side, vtkImageData* image);
+  ///@}
+
+  /**
+   * How much of the last Solid, in cubes of world units, is no solid of the input by parity: the
+   * cavities that no buffer sees. The input must be a closed mesh; it is voxelized once more. -1
+   * without a run, and with props, which parity knows nothing of.
+   */
+  double GetHiddenVolumeEstimate();
+
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -124,11 +170,15 @@ protected:
   void Prepare(const vtkVoxelGrid& whole) override;
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
   bool NeedsExactTriangulation() override { return true; }
+  bool AddArrays(
+    vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkDataSetAttributes* voxels) override;
+  std::int64_t GetBytesOfArrays() override;
 
 private:
   vtkDepthBufferVoxelizer(const vtkDepthBufferVoxelizer&) = delete;
   void operator=(const vtkDepthBufferVoxelizer&) = delete;
 
+  void CheckParameters();
   std::vector<vtkProp*> GetCheckedProps();
   void MakeBuffers(const vtkVoxelGrid& whole);
 

@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthBuffers.h"
 
+#include "vtkMorphologyPass.h"
+#include "vtkNew.h"
+#include "vtkSMPTools.h"
 #include "vtkSlicemap.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkSlicemapQuadKernel.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
+#include "vtkDepthCarveGLSL.h"
+#include "vtkDepthDensityGLSL.h"
 #include "vtkDepthMeshVertexGLSL.h"
 #include "vtkDepthRangesGLSL.h"
 #include "vtkDepthShellsGLSL.h"
@@ -17,6 +22,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -29,9 +36,17 @@ namespace
 {
 constexpr unsigned int NearUnit = 0;
 constexpr unsigned int FarUnit = 1;
+constexpr unsigned int VoxelsUnit = 2;
 constexpr unsigned int RangesUnit = 0;
 constexpr unsigned int MeshUnit = 0;
 constexpr int WordsPerQuad = 4;
+constexpr int VoxelsPerQuad = 4;
+
+/// As in vtkDepthDensity.glsl.
+constexpr float OneOfDensity = 16777216.0f;
+
+/// A buffer of 128 MiB, which all OpenGL has.
+constexpr std::int64_t MostVoxelsOfDensity = std::int64_t(1) << 25;
 
 /// Ranges of voxels are pairs of so many bits.
 constexpr int LargestLength = 65535;
@@ -214,19 +229,41 @@ Texture vtkDepthBuffers::MakeShells(
     });
 }
 
+bool vtkDepthBuffers::HasObliquePairs() const
+{
+  return std::any_of(
+    this->Pairs.begin(), this->Pairs.end(), [](const Pair& pair) { return pair.Axis == Oblique; });
+}
+
 void vtkDepthBuffers::FillSolid(vtkSlicemap* target, const glm::ivec3& first) const
 {
   std::vector<Columns> columns;
   for (const Pair& pair : this->Pairs)
   {
-    columns.push_back({ pair.Axis, this->MakeRanges(pair), {} });
+    if (pair.Axis != Oblique)
+    {
+      columns.push_back({ pair.Axis, this->MakeRanges(pair), {} });
+    }
   }
   this->Fill(target, first, columns);
+  for (const Pair& pair : this->Pairs)
+  {
+    if (pair.Axis == Oblique)
+    {
+      this->Carve(target, pair);
+    }
+  }
 }
 
 void vtkDepthBuffers::FillSurface(
   vtkSlicemap* target, const glm::ivec3& first, Neighbours neighbours) const
 {
+  if (this->HasObliquePairs())
+  {
+    this->FillSolid(target, first);
+    this->KeepBoundary(target, neighbours);
+    return;
+  }
   std::vector<Columns> columns;
   for (const Pair& pair : this->Pairs)
   {
@@ -235,6 +272,135 @@ void vtkDepthBuffers::FillSurface(
     columns.push_back(std::move(column));
   }
   this->Fill(target, first, columns);
+}
+
+void vtkDepthBuffers::Carve(vtkSlicemap* target, const Pair& pair) const
+{
+  const vtkVoxelGrid& grid = target->GetGrid();
+  const glm::dmat4 indexToView = pair.View.WorldToView * grid.GetIndexToWorld();
+  const glm::dvec4 first(glm::dvec3(grid.GetFirst()), 1.0);
+  const Texture voxels = vtkSlicemapTexture(target);
+  const vtkSlicemapQuadKernel kernel("vtkDepthCarve", vtkDepthCarveGLSL);
+  kernel.Run(this->Context, target,
+    [&](Program& program)
+    {
+      pair.NearDepth.Bind(NearUnit);
+      pair.FarDepth.Bind(FarUnit);
+      voxels.Bind(VoxelsUnit);
+      program.Set("NearDepth", int(NearUnit));
+      program.Set("FarDepth", int(FarUnit));
+      program.Set("Voxels", int(VoxelsUnit));
+      program.Set("DepthOfBuffers", static_cast<float>(pair.View.GetViewport().z));
+      program.Set("Pixels", std::array<int, 2>{ pair.View.Size.x, pair.View.Size.y });
+      program.Set("Origin", ToArray(glm::vec3(indexToView * first)));
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const std::string name = "Steps[" + std::to_string(axis) + "]";
+        program.Set(name.c_str(), ToArray(glm::vec3(indexToView[axis])));
+      }
+      program.Set("Size", ToArray(grid.GetDimensions()));
+      program.Set(
+        "QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
+    });
+}
+
+void vtkDepthBuffers::KeepBoundary(vtkSlicemap* target, Neighbours neighbours) const
+{
+  vtkMorphologyPass::Element element;
+  element.First = glm::ivec3(-1);
+  element.Last = glm::ivec3(1);
+  const int reach = neighbours == Neighbours::Four ? 1 : 2;
+  for (int z = -1; z <= 1; ++z)
+  {
+    for (int y = -1; y <= 1; ++y)
+    {
+      const int left = reach - std::abs(y) - std::abs(z);
+      if (left >= 0)
+      {
+        element.Rows.push_back({ y, z, -std::min(left, 1), std::min(left, 1) });
+      }
+    }
+  }
+  vtkNew<vtkSlicemap> interior;
+  interior->SetContext(target->GetContext());
+  vtkMorphologyPass(this->Context, vtkMorphologyPass::Border::Empty)
+    .Run(vtkMorphologyPass::Operation::Erode, element, target, interior);
+  target->Difference(interior);
+}
+
+void vtkDepthBuffers::ReadDensity(
+  const vtkVoxelGrid& grid, const glm::ivec3& first, float* values) const
+{
+  Program::Defines defines;
+  glm::vec3 depths(1.0f);
+  for (const Pair& pair : this->Pairs)
+  {
+    if (pair.Axis != Oblique)
+    {
+      defines[std::string("HAS_") + AxisNames[pair.Axis]] = "1";
+      depths[pair.Axis] = static_cast<float>(pair.View.GetViewport().z);
+    }
+  }
+  const vtkSlicemapQuadKernel kernel("vtkDepthDensity", vtkDepthDensityGLSL, std::move(defines));
+  glm::ivec3 slab = grid.GetDimensions();
+  const std::int64_t voxelsPerSlice = std::int64_t(slab.x) * slab.y;
+  const int slices = slab.z;
+  const auto most =
+    static_cast<int>(std::clamp<std::int64_t>(MostVoxelsOfDensity / voxelsPerSlice, 1, slices));
+  vtkVoxelGL::Buffer buffer;
+  for (int slice = 0; slice < slices; slice += most)
+  {
+    slab.z = std::min(most, slices - slice);
+    const std::int64_t voxels = voxelsPerSlice * slab.z;
+    const std::int64_t quads = (voxels + VoxelsPerQuad - 1) / VoxelsPerQuad;
+    vtkVoxelGL::Prepare(buffer, this->Context,
+      static_cast<std::size_t>(quads * VoxelsPerQuad) * sizeof(std::uint32_t));
+    kernel.Run(this->Context, buffer, quads,
+      [&](Program& program)
+      {
+        program.Set("First", ToArray(first + glm::ivec3(0, 0, slice)));
+        program.Set("Size", ToArray(slab));
+        program.Set("DepthOfBuffers", ToArray(depths));
+        int unit = 0;
+        for (const Pair& pair : this->Pairs)
+        {
+          if (pair.Axis == Oblique)
+          {
+            continue;
+          }
+          for (const Side side : { Side::Near, Side::Far })
+          {
+            const std::string name = side == Side::Near ? "Near" : "Far";
+            (side == Side::Near ? pair.NearDepth : pair.FarDepth)
+              .Bind(static_cast<unsigned int>(unit));
+            program.Set((name + AxisNames[pair.Axis]).c_str(), unit++);
+          }
+        }
+      });
+    const vtkVoxelGL::MappedBuffer mapped(buffer, 0, buffer.GetSize(), GL_MAP_READ_BIT);
+    const auto* parts = static_cast<const std::uint32_t*>(mapped.Get());
+    if (!parts)
+    {
+      throw std::runtime_error("The densities could not be read back from OpenGL.");
+    }
+    float* out = values + voxelsPerSlice * slice;
+    vtkSMPTools::For(0, voxels,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        std::transform(parts + begin, parts + end, out + begin,
+          [](std::uint32_t part) { return static_cast<float>(part) / OneOfDensity; });
+      });
+  }
+}
+
+std::vector<float> vtkDepthBuffers::ReadDepth(const Pair& pair, Side side) const
+{
+  std::vector<float> depths(std::size_t(pair.View.Size.x) * pair.View.Size.y);
+  pair.GetFramebuffer(side).Bind(GL_READ_FRAMEBUFFER);
+  glReadPixels(
+    0, 0, pair.View.Size.x, pair.View.Size.y, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  vtkSlicemap::CountReadBack();
+  return depths;
 }
 
 void vtkDepthBuffers::Fill(

@@ -20,6 +20,7 @@
 
 class vtkSlicemap;
 class vtkVoxelMesh;
+struct vtkVoxelGrid;
 
 class vtkDepthBuffers
 {
@@ -69,6 +70,13 @@ public:
   void FillSurface(vtkSlicemap* target, const glm::ivec3& first, Neighbours neighbours) const;
   ///@}
 
+  /// How much of each voxel of `grid`, which begins at voxel `first`, lies between the pairs along
+  /// axes, from 0 to 1, in the order of an image's points.
+  void ReadDensity(const vtkVoxelGrid& grid, const glm::ivec3& first, float* values) const;
+
+  /// The depths of one side of a pair as OpenGL stores them, pixel by pixel.
+  std::vector<float> ReadDepth(const Pair& pair, Side side) const;
+
 private:
   struct Columns;
 
@@ -77,6 +85,9 @@ private:
   vtkVoxelGL::Texture MakeRanges(const Pair& pair) const;
   vtkVoxelGL::Texture MakeShells(
     const Pair& pair, const vtkVoxelGL::Texture& ranges, Neighbours neighbours) const;
+  bool HasObliquePairs() const;
+  void Carve(vtkSlicemap* target, const Pair& pair) const;
+  void KeepBoundary(vtkSlicemap* target, Neighbours neighbours) const;
   void Fill(
     vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns) const;
 

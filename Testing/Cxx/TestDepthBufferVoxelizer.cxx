@@ -11,12 +11,14 @@
 #include <vtkActor.h>
 #include <vtkDepthBufferVoxelizer.h>
 #include <vtkImageData.h>
+#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 
@@ -170,6 +172,103 @@ bool CheckChanges()
   checks.Equal("voxels of the input instead", voxelizer->GetNumberOfFilledVoxels(), 8);
   return checks.Passed();
 }
+
+bool CheckDepths()
+{
+  VoxelTestChecks checks;
+  vtkNew<vtkDepthBufferVoxelizer> voxelizer;
+  voxelizer->SetInputData(Box({ 0.6, 1.6, 2.6 }, { 3.3, 5.3, 7.3 }));
+  voxelizer->SetReferenceImage(MakeGrid({ 0, 9, 0, 10, 0, 11 }, { 0, 0, 0 }, { 1, 1, 1 }));
+  checks.Equal("pairs before a run", voxelizer->GetNumberOfDepthBufferPairs(), 0);
+  voxelizer->SetAxes(true, false, true);
+  voxelizer->Update();
+  checks.Equal("pairs", voxelizer->GetNumberOfDepthBufferPairs(), 2);
+  vtkNew<vtkImageData> depths;
+  const auto check = [&](int pair, int side, int u, int v, double expected)
+  {
+    voxelizer->GetDepthBuffer(pair, side, depths);
+    const double found = depths->GetScalarComponentAsDouble(u, v, 0, 0);
+    checks.Check("depth " + std::to_string(pair) + " " + std::to_string(side) + " is " +
+        std::to_string(found) + ", should be " + std::to_string(expected),
+      std::abs(found - expected) < 1e-5);
+  };
+  check(0, vtkDepthBufferVoxelizer::BUFFER_NEAR, 2, 3, 0.6);
+  check(0, vtkDepthBufferVoxelizer::BUFFER_FAR, 5, 7, 3.3);
+  checks.Equal("pixels along y", depths->GetDimensions()[0], 11);
+  checks.Equal("pixels along z", depths->GetDimensions()[1], 12);
+  check(1, vtkDepthBufferVoxelizer::BUFFER_NEAR, 1, 2, 2.6);
+  check(1, vtkDepthBufferVoxelizer::BUFFER_FAR, 3, 5, 7.3);
+  voxelizer->GetDepthBuffer(1, vtkDepthBufferVoxelizer::BUFFER_NEAR, depths);
+  checks.Check("nothing is behind all voxels", depths->GetScalarComponentAsDouble(0, 0, 0, 0) > 11);
+  voxelizer->GetDepthBuffer(1, vtkDepthBufferVoxelizer::BUFFER_FAR, depths);
+  checks.Check("nothing is before all voxels", depths->GetScalarComponentAsDouble(0, 0, 0, 0) < 0);
+  VoxelTestObserver observer(voxelizer);
+  checks.Check("no third pair", !voxelizer->GetDepthBuffer(2, 0, depths));
+  checks.Equal("errors of a third pair", observer.Errors.size(), std::size_t(1));
+  return checks.Passed();
+}
+
+bool CheckViews()
+{
+  VoxelTestChecks checks;
+  // Four boxes around a square cavity leave a slit at its upper right edge, through which it is
+  // seen along the diagonal, but along no axis.
+  const Mesh beam = Appended(
+    { Box({ 0.1, 0.1, 0.1 }, { 20.1, 4.1, 20.1 }), Box({ 0.1, 4.1, 0.1 }, { 4.1, 20.1, 20.1 }),
+      Box({ 16.1, 4.1, 0.1 }, { 20.1, 13.1, 20.1 }), Box({ 4.1, 16.1, 0.1 }, { 13.1, 20.1, 20.1 }),
+      Box({ 0.1, 0.1, 0.1 }, { 20.1, 20.1, 2.1 }), Box({ 0.1, 0.1, 18.1 }, { 20.1, 20.1, 20.1 }) });
+  const Image grid = MakeGrid({ 0, 21, 0, 21, 0, 21 }, { 0, 0, 0 }, { 1, 1, 1 });
+  const auto run = [&](bool carved, vtkDepthBufferVoxelizer* voxelizer)
+  {
+    voxelizer->SetInputData(beam);
+    voxelizer->SetReferenceImage(grid);
+    if (carved)
+    {
+      voxelizer->AddView(1, 1, 0);
+    }
+    voxelizer->Update();
+    return OccupancyOf(voxelizer->GetOutput());
+  };
+  vtkNew<vtkDepthBufferVoxelizer> plain;
+  vtkNew<vtkDepthBufferVoxelizer> carving;
+  const Volume before = run(false, plain);
+  const Volume after = run(true, carving);
+  const DepthVoxels expected = DepthReference(beam, Grid::FromImage(grid));
+  const Volume solid = CrossingNonZeroReference(beam, Grid::FromImage(grid));
+  std::size_t lost = 0;
+  std::size_t added = 0;
+  for (std::size_t i = 0; i < before.Grid.NumberOfVoxels(); ++i)
+  {
+    lost += solid.Voxels[i] && !after.Voxels[i] ? 1 : 0;
+    added += after.Voxels[i] && !before.Voxels[i] ? 1 : 0;
+  }
+  checks.Check("axes fill the cavity", ReportDepth("beam", plain->GetOutput(), expected));
+  checks.Check("the cavity is filled", before.At({ 10, 10, 10 }) != 0);
+  checks.Check("the view carves it", after.At({ 10, 10, 10 }) == 0);
+  checks.Equal("voxels of the boxes lost", lost, std::size_t(0));
+  checks.Equal("voxels that a view added", added, std::size_t(0));
+  return checks.Passed();
+}
+
+/// Two spheres, one inside the other, have a hidden cavity under parity.
+bool CheckHiddenVolume()
+{
+  VoxelTestChecks checks;
+  vtkNew<vtkDepthBufferVoxelizer> voxelizer;
+  checks.Equal("hidden volume without a run", voxelizer->GetHiddenVolumeEstimate(), -1.0);
+  voxelizer->SetResolution(96);
+  voxelizer->SetInputData(NestedShells({ 0, 0, 0 }, { 3.0, 1.5 }));
+  voxelizer->Update();
+  const double hidden = voxelizer->GetHiddenVolumeEstimate();
+  const double ball = 4.0 / 3.0 * vtkMath::Pi() * 1.5 * 1.5 * 1.5;
+  checks.Check("hidden volume " + std::to_string(hidden) + " is about " + std::to_string(ball),
+    std::abs(hidden - ball) < 0.06 * ball);
+  voxelizer->SetInputData(Sphere({ 0, 0, 0 }, 1.0));
+  voxelizer->Update();
+  checks.Check("nothing is hidden in a sphere",
+    voxelizer->GetHiddenVolumeEstimate() < 1e-3 * 4.0 / 3.0 * vtkMath::Pi());
+  return checks.Passed();
+}
 }
 
 int TestDepthBufferVoxelizer(int argc, char* argv[])
@@ -208,6 +307,9 @@ int TestDepthBufferVoxelizer(int argc, char* argv[])
   ok &= CheckTies();
   ok &= CheckMixture();
   ok &= CheckChanges();
+  ok &= CheckDepths();
+  ok &= CheckViews();
+  ok &= CheckHiddenVolume();
 
   vtkNew<vtkDepthBufferVoxelizer> parts;
   parts->SetInputData(knot);
