@@ -26,15 +26,17 @@
  * <b>Props</b> are drawn by VTK in the window of the context (RenderWindow) at the size of the
  * grid, and left as they were. A prop that other windows show gives its graphics resources there
  * back, and makes them anew when it is drawn there next; set RenderWindow to that window to avoid
- * it.
+ * it. A vtkVolume whose mapper blends iso-surfaces is seen as the level sets that its property
+ * names, contoured on the CPU; cropping by its mapper is ignored. What clipping planes cut open is
+ * open: look along axes that lie in the cut.
  *
  * <b>Grid.</b> That of vtkVoxelizer, where the bounds are those of the input and of all props.
  * Backend is of no consequence.
  *
  * <b>Errors.</b> Those of vtkVoxelizer; neither an input nor a prop; a prop that is invisible, has
- * no bounds, or is translucent; a renderer in another window than RenderWindow; no axis; buffers
- * larger than OpenGL allows; a view without a
- * direction; Density without HostOutput.
+ * no bounds, or is translucent; a volume whose mapper does not blend iso-surfaces; a renderer in
+ * another window than RenderWindow; no axis; buffers larger than OpenGL allows; a view without a
+ * direction; a Connectivity other than 4 and 8; Density without HostOutput.
  *
  * @sa vtkSlicemapSolidVoxelizer vtkHybridSurfaceVoxelizer
  */

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthPropPainter.h"
 
+#include "vtkActor.h"
 #include "vtkBoundingBox.h"
+#include "vtkContourValues.h"
 #include "vtkDepthBuffers.h"
+#include "vtkFlyingEdges3D.h"
+#include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -11,7 +15,12 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLRenderer.h"
 #include "vtkOpenGLState.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkProp.h"
+#include "vtkSmartPointer.h"
+#include "vtkVolume.h"
+#include "vtkVolumeMapper.h"
+#include "vtkVolumeProperty.h"
 #include "vtkVoxelContext.h"
 #include "vtkVoxelCurrentContext.h"
 
@@ -191,6 +200,30 @@ void DrawSide(const std::vector<vtkProp*>& props, const vtkDepthBuffers::Pair& p
   renderer->SetRenderWindow(nullptr);
 }
 
+/// A volume is seen as the level sets that its property names.
+vtkSmartPointer<vtkActor> MakeLevelSets(vtkVolume* volume)
+{
+  auto* image = vtkImageData::SafeDownCast(volume->GetMapper()->GetDataSetInput());
+  vtkContourValues* values = volume->GetProperty()->GetIsoSurfaceValues();
+  vtkNew<vtkFlyingEdges3D> contour;
+  contour->SetInputData(image);
+  contour->ComputeNormalsOff();
+  contour->ComputeScalarsOff();
+  contour->SetNumberOfContours(values->GetNumberOfContours());
+  for (int i = 0; i < values->GetNumberOfContours(); ++i)
+  {
+    contour->SetValue(i, values->GetValue(i));
+  }
+  contour->Update();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(contour->GetOutput());
+  mapper->SetClippingPlanes(volume->GetMapper()->GetClippingPlanes());
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->SetUserMatrix(volume->GetMatrix());
+  return actor;
+}
+
 [[noreturn]] void Refuse(vtkProp* prop, const std::string& why)
 {
   throw std::runtime_error(std::string("A prop, of class ") + prop->GetClassName() + ", " + why);
@@ -216,14 +249,40 @@ void vtkDepthPropPainter::Check(vtkProp* prop)
       "is translucent; only opaque surfaces have a depth. Set its opacity to 1 and take "
       "translucent colors and textures off, or remove it.");
   }
+  auto* volume = vtkVolume::SafeDownCast(prop);
+  if (!volume)
+  {
+    return;
+  }
+  auto* mapper = vtkVolumeMapper::SafeDownCast(volume->GetMapper());
+  if (!mapper || mapper->GetBlendMode() != vtkVolumeMapper::ISOSURFACE_BLEND)
+  {
+    Refuse(prop,
+      "is a volume that is not drawn as surfaces. Set the blend mode of its mapper to "
+      "IsoSurface, and the iso-surface values of its property.");
+  }
+  mapper->Update();
+  if (!vtkImageData::SafeDownCast(mapper->GetDataSetInput()))
+  {
+    Refuse(prop, "is a volume that is no vtkImageData. Resample it to an image first.");
+  }
 }
 
 void vtkDepthPropPainter::Draw(
   const std::vector<vtkProp*>& props, const vtkDepthBuffers& buffers, vtkVoxelContext* context)
 {
   vtkOpenGLRenderWindow* window = context->GetOpenGLRenderWindow();
+  std::vector<vtkSmartPointer<vtkActor>> levelSets;
+  std::vector<vtkProp*> drawn;
   for (vtkProp* prop : props)
   {
+    if (auto* volume = vtkVolume::SafeDownCast(prop))
+    {
+      levelSets.push_back(MakeLevelSets(volume));
+      drawn.push_back(levelSets.back());
+      continue;
+    }
+    drawn.push_back(prop);
     for (vtkOpenGLRenderWindow* other : GetOtherWindows(prop, window))
     {
       const vtkVoxelContextSwitch toOther(other);
@@ -235,9 +294,13 @@ void vtkDepthPropPainter::Draw(
     const SavedState saved(window->GetState());
     for (const vtkDepthBuffers::Pair& pair : buffers.GetPairs())
     {
-      DrawSide(props, pair, Side::Near, window);
-      DrawSide(props, pair, Side::Far, window);
+      DrawSide(drawn, pair, Side::Near, window);
+      DrawSide(drawn, pair, Side::Far, window);
     }
+  }
+  for (const auto& actor : levelSets)
+  {
+    actor->ReleaseGraphicsResources(window);
   }
   if (!context->GetRenderWindow())
   {

@@ -7,9 +7,11 @@
 
 #include <vtkActor.h>
 #include <vtkAssembly.h>
+#include <vtkDataArray.h>
 #include <vtkDepthBufferVoxelizer.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -20,6 +22,7 @@
 #include <vtkRendererCollection.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkVolume.h>
 #include <vtkVoxelContext.h>
 
 #include <cstdlib>
@@ -192,6 +195,21 @@ int TestDepthErrors(int, char*[])
         v->AddProp(assembly);
       },
       "translucent");
+    run(
+      "volume without a surface",
+      [](Voxelizer* v)
+      {
+        vtkNew<vtkImageData> image;
+        image->SetDimensions(4, 4, 4);
+        image->AllocateScalars(VTK_FLOAT, 1);
+        image->GetPointData()->GetScalars()->Fill(0.0);
+        vtkNew<vtkOpenGLGPUVolumeRayCastMapper> mapper;
+        mapper->SetInputData(image);
+        vtkNew<vtkVolume> volume;
+        volume->SetMapper(mapper);
+        v->AddProp(volume);
+      },
+      "not drawn as surfaces");
     {
       const auto window =
         vtkSmartPointer<vtkRenderWindow>::Take(vtkVoxelContext::NewHeadlessRenderWindow());
