@@ -10,7 +10,7 @@
  * on the input port there may be any props with opaque surfaces: glyphs, clipped or displaced
  * surfaces, level-of-detail actors, assemblies, all that a renderer shows. The method is that of
  *
- * Aggeliki Karabassi, Georgios Papaioannou, Theoharis Theoharis: A Fast Depth-Buffer-Based
+ * Aggeliki Karabassi, George Papaioannou, Theoharis Theoharis: A Fast Depth-Buffer-Based
  * Voxelization Algorithm. Journal of Graphics Tools 4(4), 1999, pp. 5-10; section 2 (solid), 4.1
  * (surface), 4.2 (density).
  *

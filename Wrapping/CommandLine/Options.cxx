@@ -143,6 +143,16 @@ public:
     this->Refuse("is none of " + names);
   }
 
+  std::array<bool, 3> AsAxes() const
+  {
+    std::array<bool, 3> axes{};
+    for (const std::string& name : this->AsNames())
+    {
+      axes[Argument(this->Option, name).AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } })] = true;
+    }
+    return axes;
+  }
+
   std::array<int, 3> AsDimensions() const
   {
     std::array<int, 3> dimensions{};
@@ -222,12 +232,14 @@ const std::vector<Group>& GetGroups()
         { "--method", "METHOD",
           "solid    what lies inside of a closed mesh (default)\n"
           "surface  what any mesh touches, with attributes; needs OpenGL 4.3, which\n"
-          "         --mode boundary of solids does not",
+          "         --mode boundary of solids does not\n"
+          "depth    what lies between the outermost surfaces along --axes, of any mesh",
           [](Options& o, const Argument& a)
           {
             o.Method =
               static_cast<Method>(a.AsChoice({ { "solid", static_cast<int>(Method::Solid) },
-                { "surface", static_cast<int>(Method::Surface) } }));
+                { "surface", static_cast<int>(Method::Surface) },
+                { "depth", static_cast<int>(Method::Depth) } }));
           } },
         { "--backend", "BACKEND",
           "auto, raster (OpenGL 3.2) or compute (OpenGL 4.3); auto is compute where there\n"
@@ -298,6 +310,12 @@ const std::vector<Group>& GetGroups()
               a.AsChoice({ { "average", Surface::COMBINE_AVERAGE }, { "min", Surface::COMBINE_MIN },
                 { "max", Surface::COMBINE_MAX }, { "first", Surface::COMBINE_FIRST } });
           } },
+      } },
+    { "Between surfaces (--method depth)",
+      {
+        { "--axes", "AXIS[,AXIS...]",
+          "x, y and z: the axes along which the mesh is looked at (default: x,y,z)",
+          [](Options& o, const Argument& a) { o.Axes = a.AsAxes(); } },
       } },
     { "Output",
       {
@@ -402,20 +420,24 @@ void CheckFiles(const Options& options)
 
 void CheckMethod(const Options& options, const Names& given)
 {
-  const bool isSolid = options.Method == Method::Solid;
+  const std::string method = options.Method == Method::Depth ? "depth" : "surface";
   for (const char* option : { "--mode", "--fill", "--axis" })
   {
-    if (!isSolid && given.count(option))
+    if (options.Method != Method::Solid && given.count(option))
     {
-      Refuse(std::string(option) + " is for solids and does not go with --method surface");
+      Refuse(std::string(option) + " is for solids and does not go with --method " + method);
     }
   }
   for (const char* option : { "--separability", "--attributes", "--texture", "--combine" })
   {
-    if (isSolid && given.count(option))
+    if (options.Method != Method::Surface && given.count(option))
     {
       Refuse(std::string(option) + " needs --method surface");
     }
+  }
+  if (options.Method != Method::Depth && given.count("--axes"))
+  {
+    Refuse("--axes needs --method depth");
   }
   if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
   {

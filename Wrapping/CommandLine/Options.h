@@ -18,7 +18,8 @@ struct Options
   enum class MethodType
   {
     Solid,
-    Surface
+    Surface,
+    Depth
   };
 
   std::string Input;
@@ -44,6 +45,11 @@ struct Options
   std::optional<int> Separability; // surfaces, as the next
   std::optional<int> Combination;
   ///@}
+
+  /**
+   * Axes along which --method depth looks.
+   */
+  std::optional<std::array<bool, 3>> Axes;
 
   ///@{
   /**

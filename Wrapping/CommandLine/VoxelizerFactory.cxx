@@ -6,6 +6,7 @@
 #include "ReferenceImage.h"
 #include "TextureImage.h"
 
+#include "vtkDepthBufferVoxelizer.h"
 #include "vtkHybridSurfaceVoxelizer.h"
 #include "vtkImageData.h"
 #include "vtkSlicemapSolidVoxelizer.h"
@@ -74,12 +75,34 @@ vtkSmartPointer<vtkVoxelizer> MakeSurface(const Options& options, Messages& mess
   }
   return voxelizer;
 }
+
+vtkSmartPointer<vtkVoxelizer> MakeDepth(const Options& options)
+{
+  auto voxelizer = vtkSmartPointer<vtkDepthBufferVoxelizer>::New();
+  if (options.Axes)
+  {
+    voxelizer->SetAxes((*options.Axes)[0], (*options.Axes)[1], (*options.Axes)[2]);
+  }
+  return voxelizer;
+}
+
+vtkSmartPointer<vtkVoxelizer> MakeByMethod(const Options& options, Messages& messages)
+{
+  switch (options.Method)
+  {
+    case Options::MethodType::Surface:
+      return MakeSurface(options, messages);
+    case Options::MethodType::Depth:
+      return MakeDepth(options);
+    default:
+      return MakeSolid(options);
+  }
+}
 }
 
 vtkSmartPointer<vtkVoxelizer> VoxelizerFactory::Make(const Options& options, Messages& messages)
 {
-  auto voxelizer = options.Method == Options::MethodType::Surface ? MakeSurface(options, messages)
-                                                                  : MakeSolid(options);
+  auto voxelizer = MakeByMethod(options, messages);
   SetGrid(voxelizer, options, messages);
   SetVoxels(voxelizer, options);
   return voxelizer;
