@@ -233,12 +233,17 @@ Mesh Tetrahedron(const std::array<Vector, 4>& corners)
 //------------------------------------------------------------------------------------------------
 Mesh Sphere(const Vector& centre, double radius, int resolution)
 {
+  return Sphere(centre, radius, resolution, std::max(3, resolution / 2));
+}
+
+Mesh Sphere(const Vector& centre, double radius, int around, int rows)
+{
   vtkNew<vtkSphereSource> sphere;
   sphere->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   sphere->SetCenter(centre[0], centre[1], centre[2]);
   sphere->SetRadius(radius);
-  sphere->SetThetaResolution(resolution);
-  sphere->SetPhiResolution(std::max(3, resolution / 2));
+  sphere->SetThetaResolution(around);
+  sphere->SetPhiResolution(rows);
   sphere->Update();
   return sphere->GetOutput();
 }
@@ -313,6 +318,33 @@ Mesh Torus(double ring, double section, int around, int along)
 }
 
 //------------------------------------------------------------------------------------------------
+std::map<std::string, Mesh> PaperObjects()
+{
+  const Mesh cross = Appended({ Box({ 0, 4, 4 }, { 12, 8, 8 }), Box({ 4, 0, 4 }, { 8, 12, 8 }),
+    Box({ 4, 4, 0 }, { 8, 8, 12 }) });
+  // An H stands out of two sides.
+  std::vector<Mesh> letters = { Box({ 0, 0, 0 }, { 12, 12, 12 }) };
+  for (const double low : { -1.0, 11.5 })
+  {
+    const double high = low + 1.5;
+    letters.push_back(Box({ low, 2, 2 }, { high, 10, 4 }));
+    letters.push_back(Box({ low, 2, 8 }, { high, 10, 10 }));
+    letters.push_back(Box({ low, 5, 3 }, { high, 7, 9 }));
+  }
+  std::vector<Mesh> truck = { Box({ 0, 2, 0 }, { 20, 3, 6 }), Box({ 6, 2.5, 0 }, { 20, 9, 6 }),
+    Box({ 0, 2.5, 0.5 }, { 4.5, 7, 5.5 }) };
+  for (const double x : { 2.5, 11.0, 17.0 })
+  {
+    for (const double z : { 0.7, 5.3 })
+    {
+      truck.push_back(Sphere({ x, 1.5, z }, 1.5, 40));
+    }
+  }
+  return { { "Polyhedron", Sphere({ 0, 0, 0 }, 1.0, 8, 5) }, { "Torus", Torus(1.0, 0.35, 12, 24) },
+    { "Knot", TorusKnot(1.0, 8, 96) }, { "Cross", cross }, { "Letters", Appended(letters) },
+    { "Truck", Appended(truck) } };
+}
+
 Mesh StarPrism(const Vector& centre, double radius, double height, int spikes)
 {
   const vtkIdType corners = 2 * static_cast<vtkIdType>(spikes);
