@@ -13,15 +13,16 @@ list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 # VTK's modules, named once here. The program reads and writes files; the tests compare with
 # VTK's own filters.
 set(module_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem FiltersCore
-  ParallelCore RenderingCore RenderingOpenGL2)
+  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc CommonSystem
+  FiltersCore ParallelCore RenderingCore RenderingOpenGL2 RenderingVolume)
 set(program_components
   FiltersCore FiltersGeneral FiltersGeometry
   IOCore IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore jsoncpp)
 set(test_components
   ${program_components}
   CommonTransforms FiltersModeling FiltersSources ImagingGeneral ImagingHybrid ImagingMath
-  ImagingMorphological ImagingStencil RenderingOpenGL2 TestingCore TestingRendering)
+  ImagingMorphological ImagingStencil RenderingOpenGL2 RenderingVolumeOpenGL2
+  TestingCore TestingRendering)
 set(wrapping_components
   Python WrappingPythonCore WrappingTools)
 

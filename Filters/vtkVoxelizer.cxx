@@ -175,7 +175,7 @@ vtkVoxelGrid vtkVoxelizer::GridFromBox(const double box[6]) const
   return grid;
 }
 
-vtkVoxelGrid vtkVoxelizer::GetWholeGrid(vtkDataObject* input) const
+vtkVoxelGrid vtkVoxelizer::GetWholeGrid(vtkDataObject* input)
 {
   if (this->ReferenceImage)
   {
@@ -210,14 +210,19 @@ vtkVoxelGrid vtkVoxelizer::GetWholeGrid(vtkDataObject* input) const
     return this->GridFromBox(this->ModelBounds);
   }
   double bounds[6];
-  if (!vtkVoxelMesh::GetBounds(input, bounds))
+  if (!this->GetInputBounds(input, bounds))
   {
     throw InvalidGrid("The input has no points. Connect a mesh, or set ModelBounds.");
   }
   return this->GridFromBox(bounds);
 }
 
-vtkVoxelGrid vtkVoxelizer::GetCheckedGrid(vtkDataObject* input) const
+bool vtkVoxelizer::GetInputBounds(vtkDataObject* input, double bounds[6])
+{
+  return vtkVoxelMesh::GetBounds(input, bounds);
+}
+
+vtkVoxelGrid vtkVoxelizer::GetCheckedGrid(vtkDataObject* input)
 {
   const auto grid = this->GetWholeGrid(input);
   const bool positive = grid.Spacing.x > 0.0 && grid.Spacing.y > 0.0 && grid.Spacing.z > 0.0;
@@ -237,8 +242,7 @@ vtkVoxelGrid vtkVoxelizer::GetCheckedGrid(vtkDataObject* input) const
 int vtkVoxelizer::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkInformation* inputInfo = inputs[0]->GetInformationObject(0);
-  vtkDataObject* input = inputInfo->Get(vtkDataObject::DATA_OBJECT());
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   const bool usesBounds = !this->ReferenceImage && this->ModelBounds[0] > this->ModelBounds[1];
   if (usesBounds)
   {
@@ -256,7 +260,7 @@ int vtkVoxelizer::RequestInformation(
   {
     grid = this->GetCheckedGrid(input);
   }
-  catch (const InvalidGrid& error)
+  catch (const std::runtime_error& error)
   {
     return this->FailInformation(error.what(), outputs);
   }
@@ -270,6 +274,10 @@ int vtkVoxelizer::RequestUpdateExtent(
 {
   // Any part of the output may need all of the input.
   vtkInformation* input = inputs[0]->GetInformationObject(0);
+  if (!input)
+  {
+    return 1;
+  }
   input->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
   input->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
   input->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
@@ -317,9 +325,16 @@ int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
       {
         return false;
       }
-      this->State->Mesh.Update(this->GetContext()->GetRecord(), input,
-        this->NeedsExactTriangulation() ? vtkVoxelMesh::Triangulation::Exact
-                                        : vtkVoxelMesh::Triangulation::Fans);
+      if (input)
+      {
+        this->State->Mesh.Update(this->GetContext()->GetRecord(), input,
+          this->NeedsExactTriangulation() ? vtkVoxelMesh::Triangulation::Exact
+                                          : vtkVoxelMesh::Triangulation::Fans);
+      }
+      else
+      {
+        this->State->Mesh = vtkVoxelMesh();
+      }
       this->UsedBackend = backend;
       finished = work(this->State->Mesh);
       return finished;
@@ -334,7 +349,7 @@ int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
 int vtkVoxelizer::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkDataObject* input = inputs[0]->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT());
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkInformation* outputInfo = outputs->GetInformationObject(0);
   auto* output = vtkImageData::GetData(outputInfo);
   EmptyOutput(output);
@@ -349,6 +364,7 @@ int vtkVoxelizer::RequestData(
         return false;
       }
       this->CheckMemory(part);
+      this->Prepare(whole);
       return true;
     },
     [&](vtkVoxelMesh& mesh)

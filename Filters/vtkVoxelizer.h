@@ -189,6 +189,18 @@ protected:
   virtual bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) = 0;
 
   /**
+   * Bounds of what is to be voxelized, and false when it has none. Here: those of the input, which
+   * is null where the port is optional and nothing is connected. Throws std::runtime_error.
+   */
+  virtual bool GetInputBounds(vtkDataObject* input, double bounds[6]);
+
+  /**
+   * For what must happen before a run takes the context, such as rendering by VTK. Throws
+   * std::runtime_error.
+   */
+  virtual void Prepare(const vtkVoxelGrid& vtkNotUsed(whole)) {}
+
+  /**
    * Adds more arrays to the voxels of `grid`, which have been filled and read back, in the current
    * context. Returns false after having reported an error, or when aborted.
    */
@@ -237,8 +249,8 @@ private:
   void operator=(const vtkVoxelizer&) = delete;
 
   vtkVoxelGrid GridFromBox(const double box[6]) const;
-  vtkVoxelGrid GetWholeGrid(vtkDataObject* input) const;
-  vtkVoxelGrid GetCheckedGrid(vtkDataObject* input) const;
+  vtkVoxelGrid GetWholeGrid(vtkDataObject* input);
+  vtkVoxelGrid GetCheckedGrid(vtkDataObject* input);
   vtkVoxelGrid GetRequestedPart(const vtkVoxelGrid& whole, vtkInformation* outputInfo);
 
   int SampleDimensions[3] = { 64, 64, 64 };

@@ -233,53 +233,36 @@ Mesh Tetrahedron(const std::array<Vector, 4>& corners)
 //------------------------------------------------------------------------------------------------
 Mesh Sphere(const Vector& centre, double radius, int resolution)
 {
+  return Sphere(centre, radius, resolution, std::max(3, resolution / 2));
+}
+
+Mesh Sphere(const Vector& centre, double radius, int around, int rows)
+{
   vtkNew<vtkSphereSource> sphere;
   sphere->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   sphere->SetCenter(centre[0], centre[1], centre[2]);
   sphere->SetRadius(radius);
-  sphere->SetThetaResolution(resolution);
-  sphere->SetPhiResolution(std::max(3, resolution / 2));
+  sphere->SetThetaResolution(around);
+  sphere->SetPhiResolution(rows);
   sphere->Update();
   return sphere->GetOutput();
 }
 
 //------------------------------------------------------------------------------------------------
-Mesh TorusKnot(double size, int around, int along)
+namespace
 {
-  // The (2, 3) knot on a torus; a tube about it, its frame made of the knot's own derivative.
-  const auto knot = [size](double t) -> Vector
-  {
-    const double radius = size * (0.3 + 0.1 * std::cos(3.0 * t));
-    return { radius * std::cos(2.0 * t), radius * std::sin(2.0 * t),
-      size * 0.1 * std::sin(3.0 * t) };
-  };
+/// A grid of points that is closed both ways; `pointAt` takes the angles along and around it.
+template <typename PointAt>
+Mesh ClosedTube(int around, int along, const PointAt& pointAt)
+{
   const double fullTurn = 2.0 * vtkMath::Pi();
   std::vector<Vector> points;
   Polygons triangles;
   for (int step = 0; step < along; ++step)
   {
-    const double t = fullTurn * step / along;
-    const Vector centre = knot(t);
-    const Vector before = knot(t - 1e-3);
-    const Vector after = knot(t + 1e-3);
-    double tangent[3];
-    double normal[3];
-    double binormal[3];
-    vtkMath::Subtract(after.data(), before.data(), tangent);
-    vtkMath::Normalize(tangent);
-    vtkMath::Cross(tangent, centre.data(), binormal);
-    vtkMath::Normalize(binormal);
-    vtkMath::Cross(binormal, tangent, normal);
     for (int turn = 0; turn < around; ++turn)
     {
-      const double angle = fullTurn * turn / around;
-      Vector point;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        point[axis] = centre[axis] +
-          size * 0.06 * (std::cos(angle) * normal[axis] + std::sin(angle) * binormal[axis]);
-      }
-      points.push_back(point);
+      points.push_back(pointAt(fullTurn * step / along, fullTurn * turn / around));
       const vtkIdType here = static_cast<vtkIdType>(step) * around;
       const vtkIdType there = static_cast<vtkIdType>((step + 1) % along) * around;
       const vtkIdType next = (turn + 1) % around;
@@ -289,8 +272,79 @@ Mesh TorusKnot(double size, int around, int along)
   }
   return MakeMesh(points, triangles);
 }
+}
+
+Mesh TorusKnot(double size, int around, int along)
+{
+  // The (2, 3) knot on a torus; a tube about it, its frame made of the knot's own derivative.
+  const auto knot = [size](double t) -> Vector
+  {
+    const double radius = size * (0.3 + 0.1 * std::cos(3.0 * t));
+    return { radius * std::cos(2.0 * t), radius * std::sin(2.0 * t),
+      size * 0.1 * std::sin(3.0 * t) };
+  };
+  return ClosedTube(around, along,
+    [&](double t, double angle)
+    {
+      const Vector centre = knot(t);
+      const Vector before = knot(t - 1e-3);
+      const Vector after = knot(t + 1e-3);
+      double tangent[3];
+      double normal[3];
+      double binormal[3];
+      vtkMath::Subtract(after.data(), before.data(), tangent);
+      vtkMath::Normalize(tangent);
+      vtkMath::Cross(tangent, centre.data(), binormal);
+      vtkMath::Normalize(binormal);
+      vtkMath::Cross(binormal, tangent, normal);
+      Vector point;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        point[axis] = centre[axis] +
+          size * 0.06 * (std::cos(angle) * normal[axis] + std::sin(angle) * binormal[axis]);
+      }
+      return point;
+    });
+}
+
+Mesh Torus(double ring, double section, int around, int along)
+{
+  return ClosedTube(around, along,
+    [&](double t, double angle) -> Vector
+    {
+      const double radius = ring + section * std::cos(angle);
+      return { radius * std::cos(t), radius * std::sin(t), -section * std::sin(angle) };
+    });
+}
 
 //------------------------------------------------------------------------------------------------
+std::map<std::string, Mesh> PaperObjects()
+{
+  const Mesh cross = Appended({ Box({ 0, 4, 4 }, { 12, 8, 8 }), Box({ 4, 0, 4 }, { 8, 12, 8 }),
+    Box({ 4, 4, 0 }, { 8, 8, 12 }) });
+  // An H stands out of two sides.
+  std::vector<Mesh> letters = { Box({ 0, 0, 0 }, { 12, 12, 12 }) };
+  for (const double low : { -1.0, 11.5 })
+  {
+    const double high = low + 1.5;
+    letters.push_back(Box({ low, 2, 2 }, { high, 10, 4 }));
+    letters.push_back(Box({ low, 2, 8 }, { high, 10, 10 }));
+    letters.push_back(Box({ low, 5, 3 }, { high, 7, 9 }));
+  }
+  std::vector<Mesh> truck = { Box({ 0, 2, 0 }, { 20, 3, 6 }), Box({ 6, 2.5, 0 }, { 20, 9, 6 }),
+    Box({ 0, 2.5, 0.5 }, { 4.5, 7, 5.5 }) };
+  for (const double x : { 2.5, 11.0, 17.0 })
+  {
+    for (const double z : { 0.7, 5.3 })
+    {
+      truck.push_back(Sphere({ x, 1.5, z }, 1.5, 40));
+    }
+  }
+  return { { "Polyhedron", Sphere({ 0, 0, 0 }, 1.0, 8, 5) }, { "Torus", Torus(1.0, 0.35, 12, 24) },
+    { "Knot", TorusKnot(1.0, 8, 96) }, { "Cross", cross }, { "Letters", Appended(letters) },
+    { "Truck", Appended(truck) } };
+}
+
 Mesh StarPrism(const Vector& centre, double radius, double height, int spikes)
 {
   const vtkIdType corners = 2 * static_cast<vtkIdType>(spikes);

@@ -12,6 +12,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,12 @@ Mesh FromTriangles(const std::vector<std::array<Vector, 3>>& triangles); ///< po
 Mesh Box(const Vector& low, const Vector& high);                         ///< 12 triangles
 Mesh QuadBox(const Vector& low, const Vector& high);                     ///< 6 quadrilaterals
 Mesh Tetrahedron(const std::array<Vector, 4>& corners);                  ///< oriented outwards
-Mesh Sphere(const Vector& centre, double radius, int resolution = 24);
+Mesh Sphere(const Vector& centre, double radius, int resolution = 24);   ///< around the z axis
+/// A sphere from pole to pole in so many rows of points, the poles among them.
+Mesh Sphere(const Vector& centre, double radius, int around, int rows);
 Mesh TorusKnot(double size, int around, int along); ///< 2 * around * along triangles
+/// A torus around the z axis; 2 * around * along triangles.
+Mesh Torus(double ring, double section, int around, int along);
 /// A prism over a star with that many spikes; its two ends are non-convex n-gons.
 Mesh StarPrism(const Vector& centre, double radius, double height, int spikes);
 /// A square prism with a square hole from end to end, turned about all axes; each end is one n-gon
@@ -46,6 +51,11 @@ Mesh StarPrism(const Vector& centre, double radius, double height, int spikes);
 Mesh HoledPrism(const Vector& centre, double radius, double height, bool triangulated);
 /// Spheres inside each other, alternately solid and hollow under the parity rule.
 Mesh NestedShells(const Vector& centre, const std::vector<double>& radii);
+/// Objects like those of the paper on depth buffers by Karabassi et al., by name, with as many
+/// triangles or about: a polyhedron of 48 faces, a torus of 576, a knot of 1,536, a cross, a
+/// cube with letters on two sides, and a truck, of fewer. The latter three are of parts that
+/// overlap.
+std::map<std::string, Mesh> PaperObjects();
 /// Triangles of all sizes: a box, spheres from coarse to fine, and a fine knot in it; 0.5 M of
 /// them.
 Mesh MixedScene(double size);

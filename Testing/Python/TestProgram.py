@@ -733,6 +733,24 @@ class TestVoxels(ProgramTest):
                   naming=["60000 x 60000 x 60000", "MiB"])
 
 
+class TestDepth(ProgramTest):
+    def filled(self, *options, mesh):
+        report = self.info("--method", "depth", *options, mesh, "out.vti")
+        self.assertNotIn("leaking columns", report)
+        self.assertEqual(str(read_vti(self.folder / "out.vti").filled()), report["filled voxels"].split()[0])
+        return int(report["filled voxels"].split()[0])
+
+    def test_box(self):
+        for axes in [], ["--axes", "z"], ["--axes", "y,x"]:
+            with self.subTest(axes):
+                self.assertEqual(self.filled("--voxel-size", 0.5, *axes, mesh=self.mesh()), 4 * 6 * 8)
+
+    def test_fewer_axes_fill_more(self):
+        counts = [self.filled("--resolution", 40, "--axes", axes, mesh=BUNNY) for axes in ("x", "x,y", "x,y,z")]
+        self.assertEqual(counts, sorted(counts, reverse=True))
+        self.assertLess(counts[-1], counts[0])
+
+
 class TestSurface(ProgramTest):
     SURFACE = ("--method", "surface")
 
@@ -1358,6 +1376,18 @@ class TestUsage(ProgramTest):
             for name in "b.vtp", "b.htg", "b.VTP":
                 with self.subTest(name=name, method=method):
                     self.complain(USAGE, *method, "a.ply", name, naming=[name, "needs --method surface"])
+
+    def test_options_of_depth(self):
+        for option in "--mode=over", "--fill=vote", "--axis=x":
+            with self.subTest(option):
+                self.complain(USAGE, "--method", "depth", option, "a.ply", "b.vti",
+                              naming=[option.split("=")[0], "--method depth", "solids"])
+        self.complain(USAGE, "--method", "depth", "--texture=t.png", "a.ply", "b.vti",
+                      naming=["--texture", "needs --method surface"])
+        self.complain(USAGE, "--axes=x", "a.ply", "b.vti", naming=["--axes", "needs --method depth"])
+        for axes in "", "w", "x,,y", "xy":
+            with self.subTest(axes=axes):
+                self.complain(USAGE, "--method", "depth", f"--axes={axes}", "a.ply", "b.vti", naming=["--axes"])
 
     def test_outputs_of_surfaces(self):
         surface = ["--method", "surface"]

@@ -132,6 +132,16 @@ int Argument::AsChoice(const std::vector<std::pair<std::string, int>>& choices) 
   this->Refuse("is none of " + names);
 }
 
+std::array<bool, 3> Argument::AsAxes() const
+{
+  std::array<bool, 3> axes{};
+  for (const std::string& name : this->AsNames())
+  {
+    axes[Argument(this->Option, name).AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 } })] = true;
+  }
+  return axes;
+}
+
 std::array<int, 3> Argument::AsDimensions() const
 {
   std::array<int, 3> dimensions{};

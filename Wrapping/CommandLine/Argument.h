@@ -34,6 +34,7 @@ public:
   std::array<double, 2> AsRange() const;
   std::vector<std::string> AsNames() const;
   int AsChoice(const std::vector<std::pair<std::string, int>>& choices) const;
+  std::array<bool, 3> AsAxes() const;
   std::array<int, 3> AsDimensions() const;
   std::array<double, 6> AsBounds() const;
 

@@ -109,7 +109,8 @@ void CheckVolume(const Options& options, const Names& given)
   const bool hasMesh = std::any_of(options.Steps.begin(), options.Steps.end(),
     [](const Options::Step& step)
     { return !step.File.empty() && !ImageReader::IsImage(step.File); });
-  const auto option = FindGiven(given, { "--method", "--backend", "--separability" }, SolidOptions);
+  const auto option =
+    FindGiven(given, { "--method", "--backend", "--separability", "--axes" }, SolidOptions);
   if (option && !hasMesh)
   {
     Argument::RefuseUsage(
@@ -141,15 +142,19 @@ void CheckInput(const Options& options, const Names& given)
 
 void CheckMethod(const Options& options, const Names& given)
 {
-  const bool isSolid = options.Method == Method::Solid;
-  if (const auto option = FindGiven(given, SolidOptions); option && !isSolid)
+  const std::string method = options.Method == Method::Depth ? "depth" : "surface";
+  if (const auto option = FindGiven(given, SolidOptions); option && options.Method != Method::Solid)
   {
-    Argument::RefuseUsage(*option + " is for solids and does not go with --method surface");
+    Argument::RefuseUsage(*option + " is for solids and does not go with --method " + method);
   }
   if (const auto option = FindGiven(given, { "--separability" }, AttributeOptions);
-      option && isSolid)
+      option && options.Method != Method::Surface)
   {
     Argument::RefuseUsage(*option + " needs --method surface");
+  }
+  if (given.count("--axes") && options.Method != Method::Depth)
+  {
+    Argument::RefuseUsage("--axes needs --method depth");
   }
   if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
   {

@@ -121,12 +121,14 @@ const std::vector<Group>& GetGroups()
         { "--method", "METHOD",
           "solid    what lies inside of a closed mesh (default)\n"
           "surface  what any mesh touches, with attributes; needs OpenGL 4.3, which\n"
-          "         --mode boundary of solids does not",
+          "         --mode boundary of solids does not\n"
+          "depth    what lies between the outermost surfaces along --axes, of any mesh",
           [](Options& o, const Argument& a)
           {
             o.Method =
               static_cast<Method>(a.AsChoice({ { "solid", static_cast<int>(Method::Solid) },
-                { "surface", static_cast<int>(Method::Surface) } }));
+                { "surface", static_cast<int>(Method::Surface) },
+                { "depth", static_cast<int>(Method::Depth) } }));
           } },
         { "--backend", "BACKEND",
           "auto, raster (OpenGL 3.2) or compute (OpenGL 4.3); auto is compute where there\n"
@@ -197,6 +199,12 @@ const std::vector<Group>& GetGroups()
               a.AsChoice({ { "average", Surface::COMBINE_AVERAGE }, { "min", Surface::COMBINE_MIN },
                 { "max", Surface::COMBINE_MAX }, { "first", Surface::COMBINE_FIRST } });
           } },
+      } },
+    { "Between surfaces (--method depth)",
+      {
+        { "--axes", "AXIS[,AXIS...]",
+          "x, y and z: the axes along which the mesh is looked at (default: x,y,z)",
+          [](Options& o, const Argument& a) { o.Axes = a.AsAxes(); } },
       } },
     { "Steps, which change the voxels one after the other, in the order given here",
       {

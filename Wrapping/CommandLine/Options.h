@@ -19,7 +19,8 @@ struct Options
   enum class MethodType
   {
     Solid,
-    Surface
+    Surface,
+    Depth
   };
 
   /// What is done to the voxels of INPUT, and to what the steps before have made of them.
@@ -74,6 +75,11 @@ struct Options
   std::optional<int> Separability; // surfaces, as the next
   std::optional<int> Combination;
   ///@}
+
+  /**
+   * Axes along which --method depth looks.
+   */
+  std::optional<std::array<bool, 3>> Axes;
 
   ///@{
   /**

@@ -6,6 +6,7 @@
 #include "Options.h"
 #include "TextureImage.h"
 
+#include "vtkDepthBufferVoxelizer.h"
 #include "vtkHybridSurfaceVoxelizer.h"
 #include "vtkImageData.h"
 #include "vtkSlicemapSolidVoxelizer.h"
@@ -60,13 +61,32 @@ vtkSmartPointer<vtkHybridSurfaceVoxelizer> MakeSurface(const Options& options)
   return voxelizer;
 }
 
+vtkSmartPointer<vtkVoxelizer> MakeDepth(const Options& options)
+{
+  auto voxelizer = vtkSmartPointer<vtkDepthBufferVoxelizer>::New();
+  if (options.Axes)
+  {
+    voxelizer->SetAxes((*options.Axes)[0], (*options.Axes)[1], (*options.Axes)[2]);
+  }
+  return voxelizer;
+}
+
+vtkSmartPointer<vtkVoxelizer> MakeByMethod(const Options& options)
+{
+  switch (options.Method)
+  {
+    case Options::MethodType::Surface:
+      return MakeSurface(options);
+    case Options::MethodType::Depth:
+      return MakeDepth(options);
+    default:
+      return MakeSolid(options);
+  }
+}
+
 vtkSmartPointer<vtkVoxelizer> MakeWithoutGrid(const Options& options)
 {
-  vtkSmartPointer<vtkVoxelizer> voxelizer = MakeSolid(options);
-  if (options.Method == Options::MethodType::Surface)
-  {
-    voxelizer = MakeSurface(options);
-  }
+  auto voxelizer = MakeByMethod(options);
   voxelizer->SetBackend(options.Backend.value_or(voxelizer->GetBackend()));
   return voxelizer;
 }

@@ -1,0 +1,398 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDepthBufferVoxelizer.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDensityArrays.h"
+#include "vtkDepthBuffers.h"
+#include "vtkDepthPropPainter.h"
+#include "vtkDepthView.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPointData.h"
+#include "vtkProp.h"
+#include "vtkPropCollection.h"
+#include "vtkRenderer.h"
+#include "vtkSlicemap.h"
+#include "vtkSlicemapSolidVoxelizer.h"
+#include "vtkSmartPointer.h"
+#include "vtkVoxelContext.h"
+#include "vtkVoxelContextScope.h"
+#include "vtkVoxelGrid.h"
+#include "vtkVoxelLargeArray.h"
+#include "vtkVoxelMesh.h"
+#include "vtkWeakPointer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkDepthBufferVoxelizer);
+
+struct vtkDepthBufferVoxelizer::Scene
+{
+  std::vector<vtkSmartPointer<vtkProp>> Props;
+  vtkWeakPointer<vtkRenderer> Renderer;
+  std::vector<glm::dvec3> Views;
+  vtkDepthBuffers Buffers;
+  glm::ivec3 First{ 0 };       // voxel of the grid that the buffers were made for
+  bool IsAskedForTime = false; // a scene may show what this filter made of it
+};
+
+vtkDepthBufferVoxelizer::vtkDepthBufferVoxelizer()
+  : Drawn(std::make_unique<Scene>())
+{
+}
+
+vtkDepthBufferVoxelizer::~vtkDepthBufferVoxelizer() = default;
+
+void vtkDepthBufferVoxelizer::AddProp(vtkProp* prop)
+{
+  if (!prop)
+  {
+    vtkErrorMacro("A null prop can't be added.");
+    return;
+  }
+  this->Drawn->Props.emplace_back(prop);
+  this->Modified();
+}
+
+void vtkDepthBufferVoxelizer::SetProp(vtkProp* prop)
+{
+  this->RemoveAllProps();
+  if (prop)
+  {
+    this->AddProp(prop);
+  }
+}
+
+void vtkDepthBufferVoxelizer::RemoveAllProps()
+{
+  if (!this->Drawn->Props.empty())
+  {
+    this->Drawn->Props.clear();
+    this->Modified();
+  }
+}
+
+int vtkDepthBufferVoxelizer::GetNumberOfProps()
+{
+  return static_cast<int>(this->Drawn->Props.size());
+}
+
+vtkProp* vtkDepthBufferVoxelizer::GetProp(int index)
+{
+  return index >= 0 && index < this->GetNumberOfProps() ? this->Drawn->Props[index].Get() : nullptr;
+}
+
+void vtkDepthBufferVoxelizer::SetRenderer(vtkRenderer* renderer)
+{
+  if (this->Drawn->Renderer != renderer)
+  {
+    this->Drawn->Renderer = renderer;
+    this->Modified();
+  }
+}
+
+vtkRenderer* vtkDepthBufferVoxelizer::GetRenderer()
+{
+  return this->Drawn->Renderer;
+}
+
+void vtkDepthBufferVoxelizer::AddView(double x, double y, double z)
+{
+  this->Drawn->Views.emplace_back(x, y, z);
+  this->Modified();
+}
+
+void vtkDepthBufferVoxelizer::RemoveAllViews()
+{
+  if (!this->Drawn->Views.empty())
+  {
+    this->Drawn->Views.clear();
+    this->Modified();
+  }
+}
+
+int vtkDepthBufferVoxelizer::GetNumberOfViews()
+{
+  return static_cast<int>(this->Drawn->Views.size());
+}
+
+int vtkDepthBufferVoxelizer::GetNumberOfDepthBufferPairs()
+{
+  return this->GetSlicemap() ? static_cast<int>(this->Drawn->Buffers.GetPairs().size()) : 0;
+}
+
+bool vtkDepthBufferVoxelizer::GetDepthBuffer(int pair, int side, vtkImageData* image)
+{
+  const bool exists = pair >= 0 && pair < this->GetNumberOfDepthBufferPairs() &&
+    (side == BUFFER_NEAR || side == BUFFER_FAR) && image;
+  if (!exists)
+  {
+    vtkErrorMacro("There is no depth buffer "
+      << side << " of pair " << pair << ": the last run made "
+      << this->GetNumberOfDepthBufferPairs() << " pairs of two.");
+    return false;
+  }
+  const vtkVoxelContext::Scope scope(this->GetContext());
+  const auto& buffers = this->Drawn->Buffers.GetPairs()[pair];
+  if (!scope || !buffers.NearDepth)
+  {
+    vtkErrorMacro("The context of the depth buffers is gone. Update the filter first.");
+    return false;
+  }
+  const bool isNear = side == BUFFER_NEAR;
+  const auto depths = this->Drawn->Buffers.ReadDepth(
+    buffers, isNear ? vtkDepthBuffers::Side::Near : vtkDepthBuffers::Side::Far);
+  const auto length = static_cast<float>(buffers.View.GetViewport().z);
+  image->Initialize();
+  image->SetDimensions(buffers.View.Size.x, buffers.View.Size.y, 1);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  image->GetPointData()->GetScalars()->SetName("Depth");
+  std::transform(depths.begin(), depths.end(), static_cast<float*>(image->GetScalarPointer()),
+    [&](float depth) { return (isNear ? depth : 1.0f - depth) * length - 0.5f; });
+  return true;
+}
+
+double vtkDepthBufferVoxelizer::GetHiddenVolumeEstimate()
+{
+  vtkSlicemap* result = this->GetSlicemap();
+  vtkDataObject* input = this->GetInputDataObject(0, 0);
+  const bool comparable = result && input && this->OutputMode != OUTPUT_MODE_SURFACE &&
+    this->Drawn->Props.empty() && !this->Drawn->Renderer;
+  if (!comparable)
+  {
+    return -1.0;
+  }
+  vtkNew<vtkImageData> grid;
+  result->GetGrid().ApplyTo(grid);
+  vtkNew<vtkSlicemapSolidVoxelizer> parity;
+  parity->SetInputDataObject(input);
+  parity->SetReferenceImage(grid);
+  parity->SetRenderWindow(this->GetRenderWindow());
+  parity->HostOutputOff();
+  parity->Update();
+  vtkSlicemap* solid = vtkSlicemap::GetFromImage(parity->GetOutput());
+  vtkNew<vtkSlicemap> hidden;
+  hidden->SetContext(this->GetContext());
+  {
+    const vtkVoxelContext::Scope scope(this->GetContext());
+    if (!solid || !scope || !hidden->Allocate(result->GetGrid()))
+    {
+      return -1.0;
+    }
+    result->GetBuffer().CopyTo(hidden->GetBuffer(), 0, 0, result->GetBuffer().GetSize());
+  }
+  return hidden->Difference(solid)
+    ? hidden->GetNumberOfFilledVoxels() * result->GetGrid().GetVoxelVolume()
+    : -1.0;
+}
+
+vtkMTimeType vtkDepthBufferVoxelizer::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  if (this->Drawn->IsAskedForTime)
+  {
+    return time;
+  }
+  this->Drawn->IsAskedForTime = true;
+  for (const auto& prop : this->Drawn->Props)
+  {
+    time = std::max(time, prop->GetRedrawMTime());
+  }
+  if (vtkRenderer* renderer = this->Drawn->Renderer)
+  {
+    vtkPropCollection* shown = renderer->GetViewProps();
+    time = std::max(time, shown->GetMTime());
+    vtkCollectionSimpleIterator iterator;
+    shown->InitTraversal(iterator);
+    while (vtkProp* prop = shown->GetNextProp(iterator))
+    {
+      time = std::max(time, prop->GetRedrawMTime());
+    }
+  }
+  this->Drawn->IsAskedForTime = false;
+  return time;
+}
+
+int vtkDepthBufferVoxelizer::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+std::vector<vtkProp*> vtkDepthBufferVoxelizer::GetCheckedProps()
+{
+  std::vector<vtkProp*> props(this->Drawn->Props.begin(), this->Drawn->Props.end());
+  if (vtkRenderer* renderer = this->Drawn->Renderer)
+  {
+    vtkRenderWindow* window = renderer->GetRenderWindow();
+    if (window && window != this->GetRenderWindow())
+    {
+      throw std::runtime_error("The renderer belongs to another window than this filter works in. "
+                               "Set RenderWindow to the window of the renderer.");
+    }
+    vtkPropCollection* shown = renderer->GetViewProps();
+    vtkCollectionSimpleIterator iterator;
+    shown->InitTraversal(iterator);
+    while (vtkProp* prop = shown->GetNextProp(iterator))
+    {
+      if (prop->GetVisibility())
+      {
+        props.push_back(prop);
+      }
+    }
+  }
+  std::for_each(props.begin(), props.end(), vtkDepthPropPainter::Check);
+  return props;
+}
+
+bool vtkDepthBufferVoxelizer::GetInputBounds(vtkDataObject* input, double bounds[6])
+{
+  vtkBoundingBox box;
+  if (input && this->Superclass::GetInputBounds(input, bounds))
+  {
+    box.AddBounds(bounds);
+  }
+  for (vtkProp* prop : this->GetCheckedProps())
+  {
+    box.AddBounds(prop->GetBounds());
+  }
+  box.GetBounds(bounds);
+  return box.IsValid() != 0;
+}
+
+void vtkDepthBufferVoxelizer::MakeBuffers(const vtkVoxelGrid& whole)
+{
+  const vtkVoxelContext::Scope scope(this->GetContext());
+  if (!scope)
+  {
+    throw std::runtime_error(this->GetContext()->GetErrorMessage());
+  }
+  vtkDepthBuffers& buffers = this->Drawn->Buffers;
+  buffers.Start(this->GetContext()->GetRecord());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (this->Axes[axis])
+    {
+      buffers.Add(axis, vtkDepthView::AlongAxis(whole, axis));
+    }
+  }
+  for (const glm::dvec3& direction : this->Drawn->Views)
+  {
+    buffers.Add(vtkDepthBuffers::Oblique, vtkDepthView::AlongDirection(whole, direction));
+  }
+}
+
+void vtkDepthBufferVoxelizer::CheckParameters()
+{
+  if (!this->Axes[0] && !this->Axes[1] && !this->Axes[2])
+  {
+    throw std::runtime_error("There is no axis to look along. Set one of Axes at least.");
+  }
+  if (this->Connectivity != 4 && this->Connectivity != 8)
+  {
+    throw std::runtime_error(
+      "Connectivity is " + std::to_string(this->Connectivity) + "; it must be 4 or 8.");
+  }
+  if (this->OutputMode == OUTPUT_MODE_DENSITY && !this->GetHostOutput())
+  {
+    throw std::runtime_error("Densities are for the host only. Turn HostOutput on.");
+  }
+  for (const glm::dvec3& view : this->Drawn->Views)
+  {
+    const double length = glm::length(view);
+    if (!(length > 0.0) || !std::isfinite(length))
+    {
+      throw std::runtime_error("A view has the direction (" + std::to_string(view.x) + ", " +
+        std::to_string(view.y) + ", " + std::to_string(view.z) +
+        "), which points nowhere. Give it a length.");
+    }
+  }
+}
+
+void vtkDepthBufferVoxelizer::Prepare(const vtkVoxelGrid& whole)
+{
+  this->CheckParameters();
+  const auto props = this->GetCheckedProps();
+  if (props.empty() && this->GetNumberOfInputConnections(0) == 0)
+  {
+    throw std::runtime_error(
+      "There is nothing to voxelize. Connect a mesh, add a prop, or set a renderer.");
+  }
+  this->Drawn->First = whole.GetFirst();
+  this->MakeBuffers(whole);
+  if (!props.empty())
+  {
+    vtkDepthPropPainter::Draw(props, this->Drawn->Buffers, this->GetContext());
+  }
+}
+
+bool vtkDepthBufferVoxelizer::Voxelize(
+  vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap)
+{
+  if (!slicemap->Allocate(grid))
+  {
+    return false;
+  }
+  const vtkDepthBuffers& buffers = this->Drawn->Buffers;
+  if (mesh.GetNumberOfTriangles() > 0)
+  {
+    buffers.Draw(mesh);
+  }
+  const glm::ivec3 first = grid.GetFirst() - this->Drawn->First;
+  if (this->OutputMode == OUTPUT_MODE_SURFACE)
+  {
+    buffers.FillSurface(
+      slicemap, first, static_cast<vtkDepthBuffers::Neighbours>(this->Connectivity));
+  }
+  else
+  {
+    buffers.FillSolid(slicemap, first);
+  }
+  return this->ReportProgress(1.0);
+}
+
+std::int64_t vtkDepthBufferVoxelizer::GetBytesOfArrays()
+{
+  return this->OutputMode == OUTPUT_MODE_DENSITY ? static_cast<std::int64_t>(sizeof(float)) : 0;
+}
+
+bool vtkDepthBufferVoxelizer::AddArrays(
+  vtkVoxelMesh&, const vtkVoxelGrid& grid, vtkDataSetAttributes* voxels)
+{
+  if (this->OutputMode != OUTPUT_MODE_DENSITY)
+  {
+    return true;
+  }
+  const auto density =
+    vtkVoxelNewLargeArray<vtkFloatArray>(vtkDensityArrays::DensityName, grid.GetNumberOfVoxels());
+  if (!density)
+  {
+    throw std::runtime_error("There is no memory for the density of " +
+      std::to_string(grid.GetNumberOfVoxels()) + " voxels. Use fewer voxels.");
+  }
+  this->Drawn->Buffers.ReadDensity(
+    grid, grid.GetFirst() - this->Drawn->First, density->GetPointer(0));
+  voxels->AddArray(density);
+  return true;
+}
+
+void vtkDepthBufferVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const char* const modes[] = { "Solid", "Surface", "Density" };
+  os << indent << "NumberOfProps: " << this->GetNumberOfProps() << "\n";
+  os << indent << "Renderer: " << this->GetRenderer() << "\n";
+  os << indent << "Axes: " << this->Axes[0] << " " << this->Axes[1] << " " << this->Axes[2] << "\n";
+  os << indent << "NumberOfViews: " << this->GetNumberOfViews() << "\n";
+  os << indent << "OutputMode: " << modes[this->OutputMode] << "\n";
+  os << indent << "Connectivity: " << this->Connectivity << "\n";
+}

@@ -1,0 +1,436 @@
+// SPDX-FileCopyrightText: Copyright (c) The VTK Voxelization developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDepthBuffers.h"
+
+#include "vtkMorphologyPass.h"
+#include "vtkNew.h"
+#include "vtkSMPTools.h"
+#include "vtkSlicemap.h"
+#include "vtkSlicemapKernel.h"
+#include "vtkSlicemapQuadKernel.h"
+#include "vtkVoxelGrid.h"
+#include "vtkVoxelMesh.h"
+
+#include "vtkDepthCarveGLSL.h"
+#include "vtkDepthDensityGLSL.h"
+#include "vtkDepthMeshVertexGLSL.h"
+#include "vtkDepthRangesGLSL.h"
+#include "vtkDepthShellsGLSL.h"
+#include "vtkDepthVoxelsGLSL.h"
+#include "vtkRasterMeshFetchGLSL.h"
+#include "vtkVoxelFullScreenGLSL.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+using vtkVoxelGL::Framebuffer;
+using vtkVoxelGL::Program;
+using vtkVoxelGL::Texture;
+
+namespace
+{
+constexpr unsigned int NearUnit = 0;
+constexpr unsigned int FarUnit = 1;
+constexpr unsigned int VoxelsUnit = 2;
+constexpr unsigned int RangesUnit = 0;
+constexpr unsigned int MeshUnit = 0;
+constexpr int WordsPerQuad = 4;
+constexpr int VoxelsPerQuad = 4;
+
+/// As in vtkDepthDensity.glsl.
+constexpr float OneOfDensity = 16777216.0f;
+
+/// A buffer of 128 MiB, which all OpenGL has.
+constexpr std::int64_t MostVoxelsOfDensity = std::int64_t(1) << 25;
+
+/// Ranges of voxels are pairs of so many bits.
+constexpr int LargestLength = 65535;
+
+const char AxisNames[] = { 'X', 'Y', 'Z' };
+
+std::array<float, 3> ToArray(const glm::vec3& v)
+{
+  return { v.x, v.y, v.z };
+}
+
+std::array<int, 3> ToArray(const glm::ivec3& v)
+{
+  return { v.x, v.y, v.z };
+}
+
+/// An integer for each column of a view, from a fragment shader.
+Texture MakeColumns(const vtkVoxelGL::Context& context, const std::string& name,
+  const std::string& source, const Program::Defines& defines, const vtkDepthView& view,
+  const std::function<void(Program&)>& bind)
+{
+  Texture columns(context, GL_TEXTURE_2D);
+  if (!columns.Allocate2D(GL_R32UI, view.Size.x, view.Size.y, GL_RED_INTEGER, GL_UNSIGNED_INT))
+  {
+    throw std::runtime_error("OpenGL has no memory left for columns of voxels. Use fewer voxels.");
+  }
+  Framebuffer framebuffer(context);
+  framebuffer.Attach(GL_COLOR_ATTACHMENT0, columns);
+  framebuffer.SetDrawBuffers(1);
+  vtkVoxelGL::VertexArray vertices(context);
+  vertices.Bind();
+  Program& program = vtkVoxelGetProgram(context, name, defines,
+    { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } }, { GL_FRAGMENT_SHADER, { source } } });
+  program.Use();
+  bind(program);
+  glViewport(0, 0, view.Size.x, view.Size.y);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  return columns;
+}
+
+/// Maps the points of a mesh to view coordinates; see vtkRasterMeshFetch.glsl.
+void SetView(Program& program, const glm::dmat4& worldToView)
+{
+  const glm::dvec3 anchor(glm::inverse(worldToView)[3]);
+  const glm::vec3 high(anchor);
+  const glm::vec3 low(anchor - glm::dvec3(high));
+  program.Set("AnchorHigh", ToArray(high));
+  program.Set("AnchorLow", ToArray(low));
+  const glm::mat3 rows(glm::transpose(glm::dmat3(worldToView)));
+  for (int row = 0; row < 3; ++row)
+  {
+    const std::string name = "VoxelsFromWorld[" + std::to_string(row) + "]";
+    program.Set(name.c_str(), ToArray(rows[row]));
+  }
+}
+}
+
+/// What is known of the columns along an axis.
+struct vtkDepthBuffers::Columns
+{
+  int Axis;
+  Texture Ranges;
+  Texture Shells; ///< may be missing
+};
+
+void vtkDepthBuffers::Start(vtkVoxelGL::Context context)
+{
+  this->Pairs.clear();
+  this->Context = std::move(context);
+}
+
+void vtkDepthBuffers::CheckSize(const vtkDepthView& view) const
+{
+  GLint largestTexture = 0;
+  std::array<GLint, 2> largestViewport{};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largestTexture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, largestViewport.data());
+  const int limit = std::min({ largestTexture, largestViewport[0], largestViewport[1] });
+  const glm::ivec3 viewport = view.GetViewport();
+  if (viewport.x > limit || viewport.y > limit || view.Size.z > LargestLength)
+  {
+    throw std::runtime_error("A depth buffer of " + std::to_string(view.Size.x) + " x " +
+      std::to_string(view.Size.y) + " pixels, " + std::to_string(view.Size.z) +
+      " voxels deep, is too large: " + this->Context->GetRendererName() + " takes " +
+      std::to_string(limit) + " pixels on each axis, and " + std::to_string(LargestLength) +
+      " voxels are the limit. Use fewer voxels.");
+  }
+}
+
+Framebuffer vtkDepthBuffers::MakeBuffer(const vtkDepthView& view, Texture& depth) const
+{
+  depth = Texture(this->Context, GL_TEXTURE_2D);
+  const bool allocated =
+    depth.Allocate2D(GL_DEPTH_COMPONENT32F, view.Size.x, view.Size.y, GL_DEPTH_COMPONENT, GL_FLOAT);
+  Framebuffer framebuffer(this->Context);
+  if (allocated)
+  {
+    framebuffer.Attach(GL_DEPTH_ATTACHMENT, depth);
+  }
+  framebuffer.SetDrawBuffers(0);
+  glReadBuffer(GL_NONE);
+  if (!allocated || !framebuffer.IsComplete())
+  {
+    throw std::runtime_error("OpenGL could not make a depth buffer of " +
+      std::to_string(view.Size.x) + " x " + std::to_string(view.Size.y) +
+      " pixels. Use fewer voxels.");
+  }
+  const GLfloat nothing = 1.0f;
+  glClearBufferfv(GL_DEPTH, 0, &nothing);
+  return framebuffer;
+}
+
+void vtkDepthBuffers::Add(int axis, const vtkDepthView& view)
+{
+  this->CheckSize(view);
+  Pair pair;
+  pair.Axis = axis;
+  pair.View = view;
+  pair.Near = this->MakeBuffer(view, pair.NearDepth);
+  pair.Far = this->MakeBuffer(view, pair.FarDepth);
+  this->Pairs.push_back(std::move(pair));
+}
+
+void vtkDepthBuffers::Draw(const vtkVoxelMesh& mesh) const
+{
+  Program& program = vtkVoxelGetProgram(this->Context, "vtkDepthMesh", mesh.GetDefines(),
+    { { GL_VERTEX_SHADER, { vtkRasterMeshFetchGLSL, vtkDepthMeshVertexGLSL } } });
+  program.Use();
+  mesh.Bind(program, MeshUnit);
+  vtkVoxelGL::VertexArray vertices(this->Context);
+  vertices.Bind();
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_DEPTH_CLAMP);
+  for (const Pair& pair : this->Pairs)
+  {
+    const glm::ivec3 viewport = pair.View.GetViewport();
+    SetView(program, pair.View.WorldToView);
+    program.Set("Viewport", ToArray(glm::vec3(viewport)));
+    glViewport(0, 0, viewport.x, viewport.y);
+    for (const Side side : { Side::Near, Side::Far })
+    {
+      pair.GetFramebuffer(side).Bind();
+      program.Set("Side", side == Side::Near ? 1.0f : -1.0f);
+      glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.GetNumberOfTriangles()) * 3);
+    }
+  }
+  glDisable(GL_DEPTH_CLAMP);
+  glDisable(GL_DEPTH_TEST);
+}
+
+Texture vtkDepthBuffers::MakeRanges(const Pair& pair) const
+{
+  return MakeColumns(this->Context, "vtkDepthRanges", vtkDepthRangesGLSL, {}, pair.View,
+    [&](Program& program)
+    {
+      pair.NearDepth.Bind(NearUnit);
+      pair.FarDepth.Bind(FarUnit);
+      program.Set("NearDepth", int(NearUnit));
+      program.Set("FarDepth", int(FarUnit));
+      program.Set("DepthOfBuffers", static_cast<float>(pair.View.GetViewport().z));
+      program.Set("Length", pair.View.Size.z);
+    });
+}
+
+Texture vtkDepthBuffers::MakeShells(
+  const Pair& pair, const Texture& ranges, Neighbours neighbours) const
+{
+  return MakeColumns(this->Context, "vtkDepthShells", vtkDepthShellsGLSL,
+    { { "NEIGHBOURS", std::to_string(static_cast<int>(neighbours)) } }, pair.View,
+    [&](Program& program)
+    {
+      ranges.Bind(RangesUnit);
+      program.Set("Ranges", int(RangesUnit));
+      program.Set("Size", ToArray(pair.View.Size));
+    });
+}
+
+bool vtkDepthBuffers::HasObliquePairs() const
+{
+  return std::any_of(
+    this->Pairs.begin(), this->Pairs.end(), [](const Pair& pair) { return pair.Axis == Oblique; });
+}
+
+void vtkDepthBuffers::FillSolid(vtkSlicemap* target, const glm::ivec3& first) const
+{
+  std::vector<Columns> columns;
+  for (const Pair& pair : this->Pairs)
+  {
+    if (pair.Axis != Oblique)
+    {
+      columns.push_back({ pair.Axis, this->MakeRanges(pair), {} });
+    }
+  }
+  this->Fill(target, first, columns);
+  for (const Pair& pair : this->Pairs)
+  {
+    if (pair.Axis == Oblique)
+    {
+      this->Carve(target, pair);
+    }
+  }
+}
+
+void vtkDepthBuffers::FillSurface(
+  vtkSlicemap* target, const glm::ivec3& first, Neighbours neighbours) const
+{
+  if (this->HasObliquePairs())
+  {
+    this->FillSolid(target, first);
+    this->KeepBoundary(target, neighbours);
+    return;
+  }
+  std::vector<Columns> columns;
+  for (const Pair& pair : this->Pairs)
+  {
+    Columns column{ pair.Axis, this->MakeRanges(pair), {} };
+    column.Shells = this->MakeShells(pair, column.Ranges, neighbours);
+    columns.push_back(std::move(column));
+  }
+  this->Fill(target, first, columns);
+}
+
+void vtkDepthBuffers::Carve(vtkSlicemap* target, const Pair& pair) const
+{
+  const vtkVoxelGrid& grid = target->GetGrid();
+  const glm::dmat4 indexToView = pair.View.WorldToView * grid.GetIndexToWorld();
+  const glm::dvec4 first(glm::dvec3(grid.GetFirst()), 1.0);
+  const Texture voxels = vtkSlicemapTexture(target);
+  const vtkSlicemapQuadKernel kernel("vtkDepthCarve", vtkDepthCarveGLSL);
+  kernel.Run(this->Context, target,
+    [&](Program& program)
+    {
+      pair.NearDepth.Bind(NearUnit);
+      pair.FarDepth.Bind(FarUnit);
+      voxels.Bind(VoxelsUnit);
+      program.Set("NearDepth", int(NearUnit));
+      program.Set("FarDepth", int(FarUnit));
+      program.Set("Voxels", int(VoxelsUnit));
+      program.Set("DepthOfBuffers", static_cast<float>(pair.View.GetViewport().z));
+      program.Set("Pixels", std::array<int, 2>{ pair.View.Size.x, pair.View.Size.y });
+      program.Set("Origin", ToArray(glm::vec3(indexToView * first)));
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const std::string name = "Steps[" + std::to_string(axis) + "]";
+        program.Set(name.c_str(), ToArray(glm::vec3(indexToView[axis])));
+      }
+      program.Set("Size", ToArray(grid.GetDimensions()));
+      program.Set(
+        "QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
+    });
+}
+
+void vtkDepthBuffers::KeepBoundary(vtkSlicemap* target, Neighbours neighbours) const
+{
+  vtkMorphologyPass::Element element;
+  element.First = glm::ivec3(-1);
+  element.Last = glm::ivec3(1);
+  const int reach = neighbours == Neighbours::Four ? 1 : 2;
+  for (int z = -1; z <= 1; ++z)
+  {
+    for (int y = -1; y <= 1; ++y)
+    {
+      const int left = reach - std::abs(y) - std::abs(z);
+      if (left >= 0)
+      {
+        element.Rows.push_back({ y, z, -std::min(left, 1), std::min(left, 1) });
+      }
+    }
+  }
+  vtkNew<vtkSlicemap> interior;
+  interior->SetContext(target->GetContext());
+  vtkMorphologyPass(this->Context, vtkMorphologyPass::Border::Empty)
+    .Run(vtkMorphologyPass::Operation::Erode, element, target, interior);
+  target->Difference(interior);
+}
+
+void vtkDepthBuffers::ReadDensity(
+  const vtkVoxelGrid& grid, const glm::ivec3& first, float* values) const
+{
+  Program::Defines defines;
+  glm::vec3 depths(1.0f);
+  for (const Pair& pair : this->Pairs)
+  {
+    if (pair.Axis != Oblique)
+    {
+      defines[std::string("HAS_") + AxisNames[pair.Axis]] = "1";
+      depths[pair.Axis] = static_cast<float>(pair.View.GetViewport().z);
+    }
+  }
+  const vtkSlicemapQuadKernel kernel("vtkDepthDensity", vtkDepthDensityGLSL, std::move(defines));
+  glm::ivec3 slab = grid.GetDimensions();
+  const std::int64_t voxelsPerSlice = std::int64_t(slab.x) * slab.y;
+  const int slices = slab.z;
+  const auto most =
+    static_cast<int>(std::clamp<std::int64_t>(MostVoxelsOfDensity / voxelsPerSlice, 1, slices));
+  vtkVoxelGL::Buffer buffer;
+  for (int slice = 0; slice < slices; slice += most)
+  {
+    slab.z = std::min(most, slices - slice);
+    const std::int64_t voxels = voxelsPerSlice * slab.z;
+    const std::int64_t quads = (voxels + VoxelsPerQuad - 1) / VoxelsPerQuad;
+    vtkVoxelGL::Prepare(buffer, this->Context,
+      static_cast<std::size_t>(quads * VoxelsPerQuad) * sizeof(std::uint32_t));
+    kernel.Run(this->Context, buffer, quads,
+      [&](Program& program)
+      {
+        program.Set("First", ToArray(first + glm::ivec3(0, 0, slice)));
+        program.Set("Size", ToArray(slab));
+        program.Set("DepthOfBuffers", ToArray(depths));
+        int unit = 0;
+        for (const Pair& pair : this->Pairs)
+        {
+          if (pair.Axis == Oblique)
+          {
+            continue;
+          }
+          for (const Side side : { Side::Near, Side::Far })
+          {
+            const std::string name = side == Side::Near ? "Near" : "Far";
+            (side == Side::Near ? pair.NearDepth : pair.FarDepth)
+              .Bind(static_cast<unsigned int>(unit));
+            program.Set((name + AxisNames[pair.Axis]).c_str(), unit++);
+          }
+        }
+      });
+    const vtkVoxelGL::MappedBuffer mapped(buffer, 0, buffer.GetSize(), GL_MAP_READ_BIT);
+    const auto* parts = static_cast<const std::uint32_t*>(mapped.Get());
+    if (!parts)
+    {
+      throw std::runtime_error("The densities could not be read back from OpenGL.");
+    }
+    float* out = values + voxelsPerSlice * slice;
+    vtkSMPTools::For(0, voxels,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        std::transform(parts + begin, parts + end, out + begin,
+          [](std::uint32_t part) { return static_cast<float>(part) / OneOfDensity; });
+      });
+  }
+}
+
+std::vector<float> vtkDepthBuffers::ReadDepth(const Pair& pair, Side side) const
+{
+  std::vector<float> depths(std::size_t(pair.View.Size.x) * pair.View.Size.y);
+  pair.GetFramebuffer(side).Bind(GL_READ_FRAMEBUFFER);
+  glReadPixels(
+    0, 0, pair.View.Size.x, pair.View.Size.y, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  vtkSlicemap::CountReadBack();
+  return depths;
+}
+
+void vtkDepthBuffers::Fill(
+  vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns) const
+{
+  Program::Defines defines;
+  for (const Columns& column : columns)
+  {
+    defines[std::string("HAS_") + AxisNames[column.Axis]] = "1";
+    if (column.Shells)
+    {
+      defines["SHELLS"] = "1";
+    }
+  }
+  const vtkSlicemapQuadKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
+  kernel.Run(this->Context, target,
+    [&](Program& program)
+    {
+      program.Set("First", ToArray(first));
+      program.Set("Size", ToArray(target->GetGrid().GetDimensions()));
+      program.Set(
+        "QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
+      int unit = 0;
+      const auto set = [&](const Texture& texture, const std::string& name)
+      {
+        texture.Bind(static_cast<unsigned int>(unit));
+        program.Set(name.c_str(), unit++);
+      };
+      for (const Columns& column : columns)
+      {
+        set(column.Ranges, std::string("Ranges") + AxisNames[column.Axis]);
+        if (column.Shells)
+        {
+          set(column.Shells, std::string("Shells") + AxisNames[column.Axis]);
+        }
+      }
+    });
+}
