@@ -218,22 +218,14 @@ auto LoadFromMemory(const T* memory, int stride)
   };
 }
 
-template <typename T, typename Array>
-auto LoadFromArray(Array* array)
+template <typename T, typename GetValue>
+auto LoadOneByOne(GetValue getValue)
 {
   return [=](std::int64_t tuple, int count, T* room) -> const T*
   {
-    const int components = array->GetNumberOfComponents();
     for (int i = 0; i < count; ++i)
     {
-      if constexpr (std::is_same_v<Array, vtkBitArray>)
-      {
-        room[i] = static_cast<T>(array->GetValue((tuple + i) * components));
-      }
-      else
-      {
-        room[i] = array->GetComponent(tuple + i, 0);
-      }
+      room[i] = getValue(tuple + i);
     }
     return room;
   };
@@ -253,22 +245,27 @@ vtkSlicemapPacker::vtkSlicemapPacker(
           LoadFromMemory<VTK_TT>(tuples->GetPointer(0), tuples->GetNumberOfComponents()), nx,
           this->WordsPerRow, criteria);
       } else if (auto* components = vtkSOADataArrayTemplate<VTK_TT>::FastDownCast(scalars)) {
-        this->PackRows =
-          MakePacker<VTK_TT>(LoadFromMemory<VTK_TT>(components->GetComponentArrayPointer(0), 1), nx,
-            this->WordsPerRow, criteria);
+        // Its components lie side by side again where somebody has asked for a pointer to all.
+        this->PackRows = MakePacker<VTK_TT>(LoadOneByOne<VTK_TT>([components](std::int64_t i)
+                                              { return components->GetTypedComponent(i, 0); }),
+          nx, this->WordsPerRow, criteria);
       });
     default:
       break;
   }
   if (auto* bits = vtkBitArray::SafeDownCast(scalars))
   {
+    const int stride = bits->GetNumberOfComponents();
     this->PackRows = MakePacker<unsigned char>(
-      LoadFromArray<unsigned char>(bits), nx, this->WordsPerRow, criteria);
+      LoadOneByOne<unsigned char>([bits, stride](std::int64_t i)
+        { return static_cast<unsigned char>(bits->GetValue(i * stride)); }),
+      nx, this->WordsPerRow, criteria);
   }
   else if (!this->PackRows)
   {
-    this->PackRows =
-      MakePacker<double>(LoadFromArray<double>(scalars), nx, this->WordsPerRow, criteria);
+    this->PackRows = MakePacker<double>(
+      LoadOneByOne<double>([scalars](std::int64_t i) { return scalars->GetComponent(i, 0); }), nx,
+      this->WordsPerRow, criteria);
   }
 }
 
