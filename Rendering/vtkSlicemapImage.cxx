@@ -25,13 +25,14 @@ using vtkSlicemapImage::ByteTable;
 
 constexpr int WordBits = 32;
 
+template <vtkVoxelInitially Content>
 void ExpandRow(const std::uint32_t* words, int n, const ByteTable& table, unsigned char* out)
 {
   int x = 0;
   for (; x + WordBits <= n; x += WordBits, out += WordBits)
   {
     const std::uint32_t word = *words++;
-    if (word == 0)
+    if (Content == vtkVoxelInitially::Zero && word == 0)
     {
       continue;
     }
@@ -43,6 +44,24 @@ void ExpandRow(const std::uint32_t* words, int n, const ByteTable& table, unsign
   {
     *out++ = static_cast<unsigned char>(table[*words >> bit & 1]);
   }
+}
+
+/// Into memory that holds what is said; where that are zeros, they are not written again.
+template <vtkVoxelInitially Content>
+void ExpandRows(
+  const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
+  const ByteTable table = vtkSlicemapImage::MakeValueTable(foregroundValue);
+  vtkSMPTools::For(0, std::int64_t(n.y) * n.z,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType row = begin; row < end; ++row)
+      {
+        ExpandRow<Content>(words + row * wordsPerRow, n.x, table, out + std::int64_t(row) * n.x);
+      }
+    });
 }
 
 std::uint32_t ReversedBits(std::uint32_t x)
@@ -144,24 +163,14 @@ void Expand(
       });
     return;
   }
-  Expand(words, grid, foregroundValue, static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0));
+  ExpandRows<vtkVoxelInitially::Zero>(
+    words, grid, foregroundValue, static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0));
 }
 
 void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out)
 {
-  const glm::ivec3 n = grid.GetDimensions();
-  const std::int64_t rows = std::int64_t(n.y) * n.z;
-  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
-  const ByteTable table = MakeValueTable(foregroundValue);
-  vtkSMPTools::For(0, rows,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType row = begin; row < end; ++row)
-      {
-        ExpandRow(words + row * wordsPerRow, n.x, table, out + std::int64_t(row) * n.x);
-      }
-    });
+  ExpandRows<vtkVoxelInitially::Undefined>(words, grid, foregroundValue, out);
 }
 
 void Overlay(const std::uint32_t* words, const vtkVoxelGrid& grid, int value, unsigned char* out)
