@@ -50,19 +50,18 @@ void main()
 {
   uint index =
     gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
-  if (index >= NumberOfQuads)
+  if (index < NumberOfQuads)
   {
-    return;
-  }
 #ifdef RUNS
-  run(index);
+    run(index);
 #elif defined(PLANES)
-  uvec4 planes[PLANES];
-  kernel(FirstQuad + index, planes);
-  put(index, planes);
+    uvec4 planes[PLANES];
+    kernel(FirstQuad + index, planes);
+    put(index, planes);
 #else
-  Quads[index] = kernel(FirstQuad + index);
+    Quads[index] = kernel(FirstQuad + index);
 #endif
+  }
 }
 
 #else
