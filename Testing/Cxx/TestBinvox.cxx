@@ -3,6 +3,7 @@
 // hold, end in one error and leave no file, or the former one.
 
 #include "VoxelSolidTests.h"
+#include "VoxelTestFiles.h"
 #include "VoxelTestMeshes.h"
 #include "VoxelTestObservers.h"
 
@@ -16,38 +17,18 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSlicemap.h>
-#include <vtkTestUtilities.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 
 using namespace VoxelSolidTests;
+using namespace VoxelTestFiles;
 
 namespace
 {
-std::string Folder;
-
-std::string PathOf(const std::string& name)
-{
-  return Folder + "/" + name;
-}
-
-std::string ReadBytes(const std::string& name)
-{
-  std::ifstream stream(name, std::ios::binary);
-  return { std::istreambuf_iterator<char>(stream), {} };
-}
-
-void WriteBytes(const std::string& name, const std::string& bytes)
-{
-  std::ofstream(name, std::ios::binary) << bytes;
-}
-
 /// Runs of random length, so that some are longer than a byte can tell.
 vtkSmartPointer<vtkImageData> RandomImage(int seed, const std::array<int, 6>& extent)
 {
@@ -182,7 +163,7 @@ void TestRefusals(VoxelTestChecks& checks)
   WriteBytes(name, "as it was");
   const auto image = RandomImage(9, { 0, 4, 0, 4, 0, 4 });
   ExpectRefusal(checks, "no name", image, nullptr, vtkErrorCode::NoFileNameError);
-  ExpectRefusal(checks, "a folder", image, Folder.c_str(), vtkErrorCode::CannotOpenFileError);
+  ExpectRefusal(checks, "a folder", image, PathOf().c_str(), vtkErrorCode::CannotOpenFileError);
   ExpectRefusal(checks, "no such folder", image, PathOf("none/a.binvox").c_str(),
     vtkErrorCode::CannotOpenFileError);
   const auto flat = RandomImage(9, { 0, 4, 0, 4, 0, 4 });
@@ -242,15 +223,10 @@ void TestBadFiles(VoxelTestChecks& checks)
     checks.Equal(title, ReadBadFile(checks, title, good.substr(0, length)), std::size_t(1));
   }
   constexpr int mutations = 500;
+  constexpr std::size_t header = 64;
   for (int seed = 0; seed < mutations; ++seed)
   {
-    std::mt19937 random(seed);
-    std::string bytes = good;
-    for (int i = 0; i < 3; ++i)
-    {
-      bytes[random() % (seed % 2 ? bytes.size() : 64)] = static_cast<char>(random());
-    }
-    ReadBadFile(checks, "mutation of seed " + std::to_string(seed), bytes);
+    ReadBadFile(checks, "mutation of seed " + std::to_string(seed), Damaged(good, seed, header));
   }
 
   vtkNew<vtkBinvoxReader> missing;
@@ -266,10 +242,7 @@ void TestBadFiles(VoxelTestChecks& checks)
 
 int TestBinvox(int argc, char* argv[])
 {
-  char* folder = vtkTestUtilities::GetArgOrEnvOrDefault("-T", argc, argv, "VTK_TEMP_DIR", ".");
-  Folder = std::string(folder) + "/TestBinvox";
-  delete[] folder;
-  std::filesystem::create_directories(Folder);
+  UseFolder("TestBinvox", argc, argv);
   VoxelTestChecks checks;
   TestBytes(checks);
   TestRoundTrips(checks);

@@ -5,6 +5,7 @@
 #include "VoxelComparison.h"
 #include "VoxelReference.h"
 #include "VoxelTestObservers.h"
+#include "VoxelTestPictures.h"
 
 #include <vtkActor.h>
 #include <vtkAssembly.h>
@@ -13,14 +14,12 @@
 #include <vtkContourValues.h>
 #include <vtkCubeSource.h>
 #include <vtkDepthBufferVoxelizer.h>
-#include <vtkDiscreteFlyingEdges3D.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPlane.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkQuadric.h>
 #include <vtkRegressionTestImage.h>
 #include <vtkRenderWindow.h>
@@ -178,17 +177,7 @@ int TestDepthPicture(int argc, char* argv[])
     // The clipped sphere is open along x.
     voxelizers[i]->SetAxes(i != 2, true, true);
     voxelizers[i]->Update();
-    vtkNew<vtkDiscreteFlyingEdges3D> surface;
-    surface->SetInputConnection(voxelizers[i]->GetOutputPort());
-    surface->SetValue(0, 1);
-    surface->ComputeNormalsOff();
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(surface->GetOutputPort());
-    mapper->ScalarVisibilityOff();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetInterpolationToFlat();
-    actor->GetProperty()->SetColor(0.3, 0.65, 0.8);
+    const auto actor = VoxelTestPictures::MakeSurface(voxelizers[i]->GetOutputPort());
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(1, 1, 1);
     const double left = 0.5 * double(i % 2);

@@ -2,13 +2,11 @@
 // display.
 
 #include "VoxelTestMeshes.h"
+#include "VoxelTestPictures.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkDiscreteFlyingEdges3D.h>
 #include <vtkNew.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRegressionTestImage.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -33,17 +31,7 @@ int TestSolidPicture(int argc, char* argv[])
   voxelizer->SetInputData(bunny);
   voxelizer->SetResolution(64);
   voxelizer->SetPadding(1);
-  vtkNew<vtkDiscreteFlyingEdges3D> surface;
-  surface->SetInputConnection(voxelizer->GetOutputPort());
-  surface->SetValue(0, 1);
-  surface->ComputeNormalsOff();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(surface->GetOutputPort());
-  mapper->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetInterpolationToFlat();
-  actor->GetProperty()->SetColor(0.3, 0.65, 0.8);
+  const auto actor = VoxelTestPictures::MakeSurface(voxelizer->GetOutputPort());
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   renderer->AddActor(actor);

@@ -55,11 +55,7 @@ void TestError(VoxelTestChecks& checks, const std::string& name, int port, const
   {
     VoxelTestObserver observer(voxelizer);
     voxelizer->Update(port);
-    checks.Equal(name + ": number of errors", observer.Errors.size(), std::size_t(1));
-    if (!observer.Errors.empty() && observer.Errors[0].find(says) == std::string::npos)
-    {
-      checks.Equal(name + ": the error", observer.Errors[0], says);
-    }
+    observer.ExpectOneError(checks, name, says);
     checks.Check(name + ": output is empty", IsEmpty(voxelizer->GetOutputDataObject(port)));
   }
   voxelizer->SetInputData(Box({ 0, 0, 0 }, { 8, 8, 8 }));

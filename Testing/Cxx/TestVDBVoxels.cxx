@@ -7,10 +7,10 @@
 #include "VoxelComparison.h"
 #include "VoxelFilterTests.h"
 #include "VoxelSolidTests.h"
+#include "VoxelTestFiles.h"
 #include "VoxelTestMeshes.h"
 #include "VoxelTestObservers.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
@@ -22,7 +22,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSlicemap.h>
-#include <vtkTestUtilities.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkVDBVoxelReader.h>
 #include <vtkVDBVoxelWriter.h>
@@ -36,7 +35,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 
@@ -45,30 +43,13 @@
 #endif
 
 using namespace VoxelFilterTests;
+using namespace VoxelTestFiles;
 using VoxelReference::Volume;
 
 namespace
 {
 using Writer = vtkVDBVoxelWriter;
 using Reader = vtkVDBVoxelReader;
-
-std::string Folder;
-
-std::string PathOf(const std::string& name)
-{
-  return Folder + "/" + name;
-}
-
-std::string ReadBytes(const std::string& name)
-{
-  std::ifstream stream(name, std::ios::binary);
-  return { std::istreambuf_iterator<char>(stream), {} };
-}
-
-void WriteBytes(const std::string& name, const std::string& bytes)
-{
-  std::ofstream(name, std::ios::binary) << bytes;
-}
 
 bool HaveSameGeometry(vtkImageData* found, vtkImageData* expected)
 {
@@ -531,7 +512,7 @@ void TestRefusals(VoxelTestChecks& checks)
   };
   const Image image = SmallImage();
   refuse("no name", image, nullptr, vtkErrorCode::NoFileNameError);
-  refuse("a folder", image, Folder.c_str(), vtkErrorCode::CannotOpenFileError);
+  refuse("a folder", image, PathOf().c_str(), vtkErrorCode::CannotOpenFileError);
   refuse("no such folder", image, PathOf("none/a.vdb").c_str(), vtkErrorCode::CannotOpenFileError);
   vtkNew<vtkImageData> empty;
   refuse("empty", empty, name.c_str(), vtkErrorCode::UserError);
@@ -556,21 +537,9 @@ void TestRefusals(VoxelTestChecks& checks)
     vtkNew<Writer> writer;
     writer->SetInputData(image);
     writer->SetFileName(name.c_str());
-    std::pair<vtkAlgorithm*, int> left(writer, step);
-    vtkNew<vtkCallbackCommand> stop;
-    stop->SetClientData(&left);
-    stop->SetCallback(
-      [](vtkObject*, unsigned long, void* data, void*)
-      {
-        auto* pair = static_cast<std::pair<vtkAlgorithm*, int>*>(data);
-        if (pair->second-- == 0)
-        {
-          pair->first->AbortExecuteOn();
-        }
-      });
-    writer->AddObserver(vtkCommand::ProgressEvent, stop);
+    const VoxelTestAbort abort(writer, step);
     writer->Write();
-    if (left.second < 0)
+    if (abort.HasCome())
     {
       wasStopped = true;
       ExpectFormerFile(checks, "stopped at step " + std::to_string(step), name);
@@ -647,13 +616,8 @@ void TestBadFiles(VoxelTestChecks& checks)
       constexpr std::size_t header = 1500;
       for (int seed = 0; seed < mutations; ++seed)
       {
-        std::mt19937 random(seed);
-        std::string bytes = good;
-        for (int i = 0; i < 3; ++i)
-        {
-          bytes[random() % (seed % 2 ? bytes.size() : header)] = static_cast<char>(random());
-        }
-        ReadBadFile(checks, kind + ", mutation of seed " + std::to_string(seed), bytes);
+        ReadBadFile(
+          checks, kind + ", mutation of seed " + std::to_string(seed), Damaged(good, seed, header));
       }
     }
   }
@@ -758,11 +722,7 @@ void TestOtherGrids(VoxelTestChecks& checks)
 
 int TestVDBVoxels(int argc, char* argv[])
 {
-  char* folder = vtkTestUtilities::GetArgOrEnvOrDefault("-T", argc, argv, "VTK_TEMP_DIR", ".");
-  Folder = std::string(folder) + "/TestVDBVoxels";
-  delete[] folder;
-  std::filesystem::remove_all(Folder);
-  std::filesystem::create_directories(Folder);
+  UseFolder("TestVDBVoxels", argc, argv);
   openvdb::initialize();
   VoxelTestChecks checks;
   TestBits(checks);

@@ -263,11 +263,7 @@ void TestError(VoxelTestChecks& checks, const std::string& name,
   VoxelTestObserver observer(filter);
   spoil(filter);
   filter->Update();
-  checks.Equal(name + ": number of errors", observer.Errors.size(), std::size_t(1));
-  if (!observer.Errors.empty() && observer.Errors[0].find(says) == std::string::npos)
-  {
-    checks.Equal(name + ": the error", observer.Errors[0], says);
-  }
+  observer.ExpectOneError(checks, name, says);
   checks.Equal(
     name + ": arrays of the output", filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
   checks.Equal(name + ": volume", filter->GetVolume(), -1.0);

@@ -10,7 +10,6 @@
 #include "VoxelTestMeshes.h"
 #include "VoxelTestObservers.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -258,30 +257,15 @@ void TestAbort(VoxelTestChecks& checks)
   const Image grid = AwkwardGrids()[1].Grid;
   vtkNew<Filter> filter;
   filter->SetInputData(MakeMask(grid, RandomVoxels(grid, 9)));
-  int left = 0;
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetClientData(&left);
-  stop->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void*)
-    {
-      if (static_cast<int*>(data)[0]-- == 0)
-      {
-        static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-      }
-    });
-  const auto tag = filter->AddObserver(vtkCommand::ProgressEvent, stop);
   for (const int events : { 0, 1, 2 })
   {
-    left = events;
-    filter->SetAbortExecute(0);
+    const VoxelTestAbort abort(filter, events);
     filter->Modified();
     filter->Update();
     checks.Equal("arrays after an abort at event " + std::to_string(events),
       filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
-    checks.Check("event " + std::to_string(events) + " came", left < 0);
+    checks.Check("event " + std::to_string(events) + " came", abort.HasCome());
   }
-  filter->RemoveObserver(tag);
-  filter->SetAbortExecute(0);
   filter->Modified();
   filter->Update();
   checks.Check("a run after an abort works", filter->GetNumberOfFilledVoxels() > 0);

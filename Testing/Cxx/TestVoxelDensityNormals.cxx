@@ -7,7 +7,6 @@
 #include "VoxelTestMeshes.h"
 #include "VoxelTestObservers.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -419,15 +418,12 @@ void TestAbort(VoxelTestChecks& checks)
   const auto grid = AwkwardGrids()[1].Grid;
   vtkNew<Filter> filter;
   filter->SetInputData(MakeMask(grid, RandomVoxels(grid, 9)));
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
-  const auto tag = filter->AddObserver(vtkCommand::ProgressEvent, stop);
-  filter->Update();
-  checks.Equal(
-    "arrays after an abort", filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
-  filter->RemoveObserver(tag);
-  filter->SetAbortExecute(0);
+  {
+    const VoxelTestAbort abort(filter);
+    filter->Update();
+    checks.Equal(
+      "arrays after an abort", filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
+  }
   filter->Modified();
   filter->Update();
   checks.Equal(

@@ -76,11 +76,7 @@ void TestError(VoxelTestChecks& checks, const std::string& error, const Change& 
   {
     VoxelTestObserver observer(voxelizer);
     voxelizer->Update();
-    checks.Equal(name + ": number of errors", observer.Errors.size(), std::size_t(1));
-    if (!observer.Errors.empty() && observer.Errors[0].find(says) == std::string::npos)
-    {
-      checks.Equal(name + ": the error", observer.Errors[0], says);
-    }
+    observer.ExpectOneError(checks, name, says);
     checks.Equal(name + ": points of the output",
       voxelizer->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
     checks.Equal(name + ": filled voxels", voxelizer->GetNumberOfFilledVoxels(), vtkIdType(-1));

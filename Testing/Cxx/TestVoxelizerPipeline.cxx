@@ -84,16 +84,13 @@ void TestProgressAndAbort(VoxelTestChecks& checks, const Mesh& mesh)
   checks.Check("progress rises within 0 and 1",
     std::is_sorted(seen.begin(), seen.end()) && seen.front() >= 0.0 && seen.back() <= 1.0);
 
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
-  const auto stopTag = voxelizer->AddObserver(vtkCommand::ProgressEvent, stop);
-  voxelizer->Modified();
-  voxelizer->Update();
-  checks.Equal(
-    "arrays after an abort", voxelizer->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
-  voxelizer->RemoveObserver(stopTag);
-  voxelizer->SetAbortExecute(0);
+  {
+    const VoxelTestAbort abort(voxelizer);
+    voxelizer->Modified();
+    voxelizer->Update();
+    checks.Equal(
+      "arrays after an abort", voxelizer->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
+  }
   voxelizer->Modified();
   voxelizer->Update();
   checks.Check("a run after an abort works", voxelizer->GetNumberOfFilledVoxels() > 0);

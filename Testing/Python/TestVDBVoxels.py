@@ -3,26 +3,20 @@ voxels; that grids of arrays come back to Python as they were; and that vtkvoxel
 
     TestVDBVoxels.py --program vtkvoxelize -D DATA_DIRECTORY [-T SCRATCH_DIRECTORY]
 """
-import argparse
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+import TestProgram
+from TestProgram import INPUT, OUTPUT, USAGE
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 from vtkvoxelization import vtkVDBVoxelReader, vtkVDBVoxelWriter
-
-USAGE, INPUT, OUTPUT = 1, 2, 4
-
-PROGRAM = None
-BUNNY = None
-SCRATCH = None
 
 
 def make_image():
@@ -57,7 +51,7 @@ def read_vti(name):
 
 class VDBVoxels(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(dir=SCRATCH)
+        folder = tempfile.TemporaryDirectory(dir=TestProgram.SCRATCH)
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
@@ -81,7 +75,7 @@ class VDBVoxels(unittest.TestCase):
                              [f"Tree_{kind}_5_4_3", "Tree_float_5_4_3", "Tree_vec3s_5_4_3"])
 
     def run_program(self, *words):
-        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+        return subprocess.run([TestProgram.PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
 
     def test_print(self):
         tool = shutil.which("vdb_print")
@@ -147,7 +141,7 @@ class VDBVoxels(unittest.TestCase):
     def test_program(self):
         for words in ["--resolution", 48], ["--resolution", 48, "--method", "surface"]:
             for output in "out.vdb", "out.vti":
-                run = self.run_program(*words, BUNNY, output)
+                run = self.run_program(*words, TestProgram.BUNNY, output)
                 self.assertEqual((run.returncode, run.stderr), (0, ""))
             run = self.run_program("out.vdb", "back.vti")
             self.assertEqual((run.returncode, run.stderr), (0, ""))
@@ -170,7 +164,7 @@ class VDBVoxels(unittest.TestCase):
             (INPUT, ["none.vdb", "new.vti"]),
             (USAGE, ["--resolution", 7, "out.vdb", "new.vti"]),
             (USAGE, ["out.vdb", "new.vtp"]),
-            (OUTPUT, [BUNNY, "nowhere/new.vdb"]),
+            (OUTPUT, [TestProgram.BUNNY, "nowhere/new.vdb"]),
         ):
             run = self.run_program(*words)
             self.assertEqual(run.returncode, code, words)
@@ -189,20 +183,5 @@ class VDBVoxels(unittest.TestCase):
         self.assertIn(".vti", run.stderr)
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--program", required=True, type=os.path.abspath)
-    parser.add_argument("-D", dest="data", required=True, action="append", type=os.path.abspath)
-    parser.add_argument("-T", dest="scratch", type=os.path.abspath)
-    arguments, rest = parser.parse_known_args()
-    global PROGRAM, BUNNY, SCRATCH
-    PROGRAM = arguments.program
-    BUNNY = os.path.join(arguments.data[0], "bunny_7k.ply")
-    SCRATCH = arguments.scratch
-    if rest[:1] == ["-V"]:  # the baseline, which this test has none of
-        rest = rest[2:]
-    unittest.main(argv=[sys.argv[0], *rest])
-
-
 if __name__ == "__main__":
-    main()
+    TestProgram.main()
