@@ -12,6 +12,7 @@
 #include "vtkDensitySumsGLSL.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,26 @@ int GetLogarithm(int powerOfTwo)
 int DividedUp(int number, int divisor)
 {
   return (number + divisor - 1) / divisor;
+}
+
+/// Buffers are read as one texture; runs write them as one block, of at least one slice.
+void CheckRoom(std::int64_t bytes, bool isBlock)
+{
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  std::int64_t limit = texels * QuadBytes;
+  if (isBlock)
+  {
+    GLint64 block = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
+    limit = std::min<std::int64_t>(limit, block);
+  }
+  if (bytes > limit)
+  {
+    throw std::runtime_error("The counts of one slice take " + std::to_string(bytes) +
+      " bytes, but this OpenGL renderer allows " + std::to_string(limit) +
+      ". Use fewer voxels along x and y.");
+  }
 }
 
 std::int64_t GetNumberOfQuads(const glm::ivec3& sizeInQuads)
@@ -230,6 +251,7 @@ bool vtkDensityPass::Run(vtkSlicemap* source, const Consume& consume) const
   std::array<vtkVoxelGL::Texture, 2> textures;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, largest.size()); ++i)
   {
+    CheckRoom(static_cast<std::int64_t>(room[i]), this->UsesRuns());
     vtkVoxelGL::Prepare(sums[i], this->Context, room[i]);
     textures[i] = vtkVoxelGL::Texture(this->Context, GL_TEXTURE_BUFFER);
     textures[i].AttachBuffer(GL_RGBA32UI, sums[i]);

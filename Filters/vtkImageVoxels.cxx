@@ -7,6 +7,7 @@
 #include "vtkPointData.h"
 #include "vtkSlicemap.h"
 #include "vtkSlicemapImage.h"
+#include "vtkSlicemapPacker.h"
 #include "vtkVoxelFileError.h"
 
 #include <vector>
@@ -48,7 +49,10 @@ void vtkImageVoxels::Read(const std::function<void(const std::uint32_t* words)>&
   if (!this->Slicemap)
   {
     std::vector<std::uint32_t> words(vtkSlicemap::GetNumberOfWords(this->Grid));
-    vtkSlicemapImage::Pack(this->Scalars, this->Grid, words.data());
+    const glm::ivec3 n = this->Grid.GetDimensions();
+    const vtkSlicemapPacker packer(
+      this->Scalars, this->Grid, { vtkSlicemapPacker::Criterion::NotZero() });
+    packer.Pack(0, std::int64_t(n.y) * n.z, { words.data() });
     consume(words.data());
   }
   else if (!this->Slicemap->Read(consume))

@@ -8,7 +8,6 @@
 #include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkSlicemap.h"
-#include "vtkSlicemapPacker.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelLargeArray.h"
@@ -213,12 +212,5 @@ std::int64_t Count(const std::uint32_t* words, std::int64_t numberOfWords)
       total += count;
     });
   return total;
-}
-
-void Pack(vtkDataArray* array, const vtkVoxelGrid& grid, std::uint32_t* words)
-{
-  const glm::ivec3 n = grid.GetDimensions();
-  const vtkSlicemapPacker packer(array, grid, { vtkSlicemapPacker::Criterion::NotZero() });
-  packer.Pack(0, std::int64_t(n.y) * n.z, { words });
 }
 }

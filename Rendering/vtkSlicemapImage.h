@@ -61,11 +61,6 @@ void Overlay(const std::uint32_t* words, const vtkVoxelGrid& grid, int value, un
  * Number of set bits.
  */
 std::int64_t Count(const std::uint32_t* words, std::int64_t numberOfWords);
-
-/**
- * Bits are set where the first component of the array is not zero. Padding bits are cleared.
- */
-void Pack(vtkDataArray* array, const vtkVoxelGrid& grid, std::uint32_t* words);
 }
 
 #endif
