@@ -359,7 +359,7 @@ int main(int argc, char* argv[])
   AddRows("DensityCount", Density<false, DensityNormals::NORMALS_OFF>, mesh, { 2, 4, 8 }, 3);
   AddRows("Chain", Chain<Filter::KERNEL_BOX>, mesh, { 2, 8 }, 3);
   AddRows("ChainSphere", Chain<Filter::KERNEL_SPHERE>, mesh, { 8 }, 3);
-  AddRows("ChainVTK", ChainVTK<false>, mesh, { 8 }, 1);
+  AddRows("ChainVTK", ChainVTK<false>, mesh, { 8 }, 1, 1); // takes a minute
   AddRows("ChainVTKLines", ChainVTK<true>, mesh, { 8 }, 1);
   AddRows("Union", Union, mesh, { Resolution }, 5);
   AddRows("LevelSets", LevelSets, { 1, 4 }, 5);
