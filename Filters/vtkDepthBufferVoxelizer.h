@@ -163,6 +163,10 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+#ifndef __VTK_WRAP__
+  std::int64_t EstimateBytes(const vtkVoxelGrid& part) override;
+#endif
+
 protected:
   vtkDepthBufferVoxelizer();
   ~vtkDepthBufferVoxelizer() override;

@@ -13,6 +13,9 @@
 
 namespace vtkVoxelMemory
 {
+/// What the system says is free, or can be freed at once.
+std::int64_t GetFreeBytes();
+
 /**
  * Throws std::runtime_error, which names `what` and ends with `remedy`, when it takes more bytes
  * than `limit`, or than are free where the limit is 0.

@@ -178,6 +178,14 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+#ifndef __VTK_WRAP__
+  /**
+   * For those who drive it in slabs: bytes that a run for such a part of the output takes, output
+   * included, beside those of the mesh.
+   */
+  virtual std::int64_t EstimateBytes(const vtkVoxelGrid& part);
+#endif
+
 protected:
   vtkVoxelizer();
   ~vtkVoxelizer() override;
@@ -209,6 +217,17 @@ protected:
   {
     return true;
   }
+
+  /**
+   * Number of slicemaps that a run has at a time on the grid of its output. Here: 1.
+   */
+  virtual int GetNumberOfWorkSlicemaps() { return 1; }
+
+  /**
+   * The grid of the whole output during a run. What must not depend on which part is asked for is
+   * decided by it.
+   */
+  const vtkVoxelGrid& GetGridOfWhole() const;
 
   /**
    * Bytes a voxel that these arrays take.
