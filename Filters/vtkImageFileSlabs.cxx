@@ -21,7 +21,7 @@
 namespace
 {
 constexpr std::int64_t BlockBytes = 1 << 16;
-constexpr std::int64_t BytesAtOnce = 1 << 24; // of values
+constexpr std::int64_t BytesAtOnce = 1 << 21; // of values
 constexpr std::int64_t BitsPerByte = 8;
 
 /// Voxels compress so well that more effort buys nothing.

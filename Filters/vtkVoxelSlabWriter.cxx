@@ -87,12 +87,7 @@ public:
       this->FormerExtent.assign(former, former + 6);
     }
     this->MakesParts = this->Information->Get(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT()) != 0;
-    this->Whole = vtkVoxelGrid::FromInformation(this->Information);
-    this->AreCells = this->HasCellVoxels();
-    if (this->AreCells)
-    {
-      this->Whole = this->Whole.CellsToVoxels();
-    }
+    this->FindVoxels();
     if (this->Whole.IsEmpty())
     {
       Refuse("The input has no voxels: " + this->Whole.Describe() +
@@ -150,27 +145,43 @@ public:
     return image;
   }
 
+  /// For those that can't make parts: then it is certain what they make.
+  void MakeWhole()
+  {
+    this->Update(this->Whole);
+    this->FindVoxels();
+  }
+
 private:
+  void FindVoxels()
+  {
+    this->Whole = vtkVoxelGrid::FromInformation(this->Information);
+    this->AreCells = this->HasCellVoxels();
+    if (this->AreCells)
+    {
+      this->Whole = this->Whole.CellsToVoxels();
+    }
+  }
+
   /// Of data that are there, these tell; else what is announced of them.
   bool HasCellVoxels() const
   {
-    if (auto* algorithm = vtkVoxelAlgorithm::SafeDownCast(this->Producer);
-        algorithm && this->MakesParts)
+    if (auto* voxelizer = vtkVoxelizer::SafeDownCast(this->Producer))
     {
-      return algorithm->GetOutputAttributeType() == vtkVoxelAlgorithm::ATTRIBUTE_CELL;
-    }
-    if (vtkDataObject::GetActiveFieldInformation(this->Information,
-          vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS))
-    {
-      return false;
+      return voxelizer->GetOutputAttributeType() == vtkVoxelAlgorithm::ATTRIBUTE_CELL;
     }
     auto* image = vtkImageData::SafeDownCast(this->Producer->GetOutputDataObject(this->Port));
     if (image && (vtkSlicemap::GetFromImage(image) || vtkSlicemapImage::GetScalars(image)))
     {
       return vtkImageVoxels(image).Grid.Extent != vtkVoxelGrid::FromImage(image).Extent;
     }
-    return vtkDataObject::GetActiveFieldInformation(this->Information,
-             vtkDataObject::FIELD_ASSOCIATION_CELLS, vtkDataSetAttributes::SCALARS) != nullptr;
+    const auto has = [&](int association)
+    {
+      return vtkDataObject::GetActiveFieldInformation(
+               this->Information, association, vtkDataSetAttributes::SCALARS) != nullptr;
+    };
+    return has(vtkDataObject::FIELD_ASSOCIATION_CELLS) &&
+      !has(vtkDataObject::FIELD_ASSOCIATION_POINTS);
   }
 
   std::int64_t GetBytesPerVoxel() const
@@ -226,8 +237,7 @@ public:
       next = end + 1;
     }
     this->CheckBytes(this->Target->GetBytes() + this->Target->GetBytesToFinish(), "The file");
-    const bool finished = this->Target->Finish(
-      this->Watch(ShareOfSlabs, 1.0 - ShareOfSlabs));
+    const bool finished = this->Target->Finish(this->Watch(ShareOfSlabs, 1.0 - ShareOfSlabs));
     if (this->IsAborted)
     {
       throw Aborted();
@@ -236,6 +246,7 @@ public:
     {
       file.Fail("the disk may be full");
     }
+    this->Report(1.0);
     file.Commit();
   }
 
@@ -243,6 +254,12 @@ private:
   /// What can be told before the file is opened.
   void Check()
   {
+    if (!this->From.CanMakeParts())
+    {
+      this->CheckBytes(this->From.EstimateBytes(this->From.GetWhole()),
+        std::string("The output of ") + this->From.GetName() + ", which makes it in one piece,");
+      this->From.MakeWhole();
+    }
     const vtkVoxelGrid& whole = this->From.GetWhole();
     if (this->Format == FORMAT_BINVOX)
     {
@@ -254,11 +271,6 @@ private:
       vtkVDBSlabs::Check(whole, this->Writer->OccupancyGrid);
     }
 #endif
-    if (!this->From.CanMakeParts())
-    {
-      this->CheckBytes(this->From.EstimateBytes(whole),
-        std::string("The output of ") + this->From.GetName() + ", which makes it in one piece,");
-    }
   }
 
   std::unique_ptr<vtkVoxelSlabs> MakeTarget(vtkNewVoxelFile& file) const
@@ -491,7 +503,6 @@ void vtkVoxelSlabWriter::WriteData()
 #endif
     Run(this, format).WriteAll();
     this->IsWritten = true;
-    this->UpdateProgress(1.0);
   }
   catch (const Aborted&)
   {

@@ -99,9 +99,15 @@ int main(int argc, char* argv[])
     const auto add = [&, mesh = mesh](
                        const std::string& title, const char* extension, const std::vector<int>& sizes)
     {
-      AddRows(
-        title + "/" + name,
-        [mesh, extension](benchmark::State& state) { Slabs(state, mesh, extension); }, sizes, 1);
+      for (const int size : sizes)
+      {
+        benchmark::RegisterBenchmark((title + "/" + name).c_str(),
+          [mesh, extension](benchmark::State& state) { Slabs(state, mesh, extension); })
+          ->Arg(size)
+          ->Iterations(1)
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
+      }
     };
     add("VDB", ".vdb", { 1024, 2048, 4096 });
     add("VTI", ".vti", { 1024 });

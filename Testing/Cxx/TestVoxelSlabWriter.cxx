@@ -449,7 +449,7 @@ void TestMemory(VoxelTestChecks& checks)
   voxelizer->SetResolution(300);
   const Image whole = MakeWhole(voxelizer);
   int former = 0;
-  for (const vtkTypeInt64 limit : { 1 << 26, 1 << 22, 1 << 21 })
+  for (const vtkTypeInt64 limit : { 1 << 26, 1 << 21, 3 << 19 })
   {
     vtkNew<Writer> writer;
     writer->SetInputConnection(voxelizer->GetOutputPort());

@@ -67,25 +67,25 @@ class ProgramSlabs(unittest.TestCase):
                           ["--resolution", 60, "--dilate", 2]):
                 whole = self.run_program(*words, TestProgram.BUNNY, "whole" + extension)
                 self.assertEqual((whole.returncode, whole.stderr), (0, ""))
-                slabs = self.run_program(*words, "--memory-limit", "1.5M", TestProgram.BUNNY, "slabs" + extension)
+                slabs = self.run_program(*words, "--memory-limit", "5M", TestProgram.BUNNY, "slabs" + extension)
                 self.assertEqual((slabs.returncode, slabs.stderr), (0, ""))
                 self.check_same("slabs" + extension, "whole" + extension)
 
     def test_output_options(self):
         for words in ["--value", 9], ["--cells"], ["--cells", "--value", 3]:
-            for limit in [], ["--memory-limit", "1M"]:
+            for limit in [], ["--memory-limit", "5M"]:
                 run = self.run_program("--resolution", 70, *words, *limit, TestProgram.BUNNY,
                                        "slabs.vti" if limit else "whole.vti")
                 self.assertEqual((run.returncode, run.stderr), (0, ""))
             self.check_same("slabs.vti", "whole.vti")
-        run = self.run_program("--type", "bit", "--memory-limit", "1M", TestProgram.BUNNY, "bits.vti")
+        run = self.run_program("--type", "bit", "--memory-limit", "5M", TestProgram.BUNNY, "bits.vti")
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         image, voxels = read(self.folder / "bits.vti")
         self.assertEqual(voxels.GetDataTypeAsString(), "bit")
 
     def test_info(self):
         lines = []
-        for limit in [], ["--memory-limit", "1M"]:
+        for limit in [], ["--memory-limit", "5M"]:
             run = self.run_program("--info", *limit, TestProgram.BUNNY, "out.binvox")
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             lines.append([line for line in run.stdout.splitlines()
@@ -113,7 +113,7 @@ class ProgramSlabs(unittest.TestCase):
         """Half of the kills come at any moment, half while the file is being written."""
         chance = random.Random(8)
         for extension in FORMATS:
-            for limit in [], ["--memory-limit", "2M"]:
+            for limit in [], ["--memory-limit", "6M"]:
                 words = ["--resolution", 220, *limit, TestProgram.BUNNY]
                 start = time.monotonic()
                 run = self.run_program(*words, "new" + extension)
@@ -160,7 +160,7 @@ class ProgramSlabs(unittest.TestCase):
                   "\"$@\"; code=$?; cat out*; ls -A | wc -l; exit $code")
         for extension in FORMATS:
             # Runs of .binvox and blocks of .vti pack well.
-            for limit in [], ["--memory-limit", "8M"]:
+            for limit in [], ["--memory-limit", "16M"]:
                 words = ["--resolution", 400, *limit, TestProgram.BUNNY, "out" + extension]
                 run = self.run_program(*words, before=[*unshare, "sh", "-c", script, "sh", extension])
                 self.assertEqual((run.returncode, run.stdout), (OUTPUT, "as it was1\n"), run.stderr)
