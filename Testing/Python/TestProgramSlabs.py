@@ -52,7 +52,7 @@ class ProgramSlabs(unittest.TestCase):
 
     def run_program(self, *words, before=()):
         return subprocess.run([*before, TestProgram.PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True,
-                              text=True)
+                              text=True, errors="replace")
 
     def check_same(self, one, other):
         (found, voxels), (expected, expected_voxels) = read(self.folder / one), read(self.folder / other)
@@ -182,7 +182,7 @@ class ProgramSlabs(unittest.TestCase):
         fractions = []
         writer.AddObserver("ProgressEvent", lambda *_: fractions.append(writer.GetProgress()))
         self.assertEqual(writer.Write(), 1)
-        self.assertEqual(fractions, sorted(fractions))
+        self.assertTrue(all(b >= a - 1e-9 for a, b in zip(fractions, fractions[1:])), fractions)
         self.assertGreater(writer.GetNumberOfSlabs(), 2)
         voxelizer.HostOutputOn()
         voxelizer.Update()
