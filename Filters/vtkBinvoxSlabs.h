@@ -32,8 +32,7 @@ public:
   int GetAxis() const override { return 0; }
   int GetBestMultiple() const override;
   std::int64_t GetBytes() const override;
-  bool Add(
-    const std::uint32_t* words, const vtkVoxelGrid& slab, const Progress& progress) override;
+  bool Add(const std::uint32_t* words, const vtkVoxelGrid& slab, const Progress& progress) override;
   bool Finish(const Progress& progress) override;
 
 private:

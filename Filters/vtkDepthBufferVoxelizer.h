@@ -175,7 +175,10 @@ protected:
   bool GetInputBounds(vtkDataObject* input, double bounds[6]) override;
   void Prepare(const vtkVoxelGrid& whole) override;
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
-  bool NeedsExactTriangulation() override { return true; }
+  bool NeedsExactTriangulation() override
+  {
+    return true;
+  }
   bool AddArrays(
     vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkDataSetAttributes* voxels) override;
   std::int64_t GetBytesOfArrays() override;

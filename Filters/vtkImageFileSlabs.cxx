@@ -67,8 +67,7 @@ std::string MakeHeader(const vtkVoxelGrid& whole, const vtkImageFileSlabs::Setti
          << "    <Piece Extent=\"" << extent << "\">\n"
          << "      <" << attributes << " Scalars=\"" << vtkSlicemapImage::ArrayName << "\">\n"
          << "        <DataArray type=\"" << (settings.ScalarType == VTK_BIT ? "Bit" : "UInt8")
-         << "\" Name=\"" << vtkSlicemapImage::ArrayName
-         << "\" format=\"appended\" offset=\"0\"/>\n"
+         << "\" Name=\"" << vtkSlicemapImage::ArrayName << "\" format=\"appended\" offset=\"0\"/>\n"
          << "      </" << attributes << ">\n"
          << "      <" << others << ">\n"
          << "      </" << others << ">\n"
@@ -153,7 +152,8 @@ int vtkImageFileSlabs::GetMultiple() const
 std::int64_t vtkImageFileSlabs::GetBytes() const
 {
   const std::int64_t values = this->SlicesAtOnce * this->SliceBytes + BlockBytes;
-  const auto sizes = static_cast<std::int64_t>(this->TotalBytes / BlockBytes * sizeof(std::uint64_t));
+  const auto sizes =
+    static_cast<std::int64_t>(this->TotalBytes / BlockBytes * sizeof(std::uint64_t));
   return this->Options.IsCompressed ? 2 * values + sizes : values;
 }
 
@@ -178,10 +178,9 @@ bool vtkImageFileSlabs::Add(
 
 void vtkImageFileSlabs::AppendValues(const std::uint32_t* words, const vtkVoxelGrid& slices)
 {
-  const std::int64_t bytes =
-    GetBytesOfVoxels(slices.GetNumberOfVoxels(), this->Options.ScalarType);
-  this->Values.resize(
-    std::max<std::size_t>(this->Values.size(), static_cast<std::size_t>(this->NumberOfValues + bytes)));
+  const std::int64_t bytes = GetBytesOfVoxels(slices.GetNumberOfVoxels(), this->Options.ScalarType);
+  this->Values.resize(std::max<std::size_t>(
+    this->Values.size(), static_cast<std::size_t>(this->NumberOfValues + bytes)));
   unsigned char* const end = this->Values.data() + this->NumberOfValues;
   if (this->Options.ScalarType == VTK_BIT)
   {
@@ -198,8 +197,7 @@ void vtkImageFileSlabs::AppendValues(const std::uint32_t* words, const vtkVoxelG
   }
   else
   {
-    this->Stream.write(
-      reinterpret_cast<const char*>(this->Values.data()), this->NumberOfValues);
+    this->Stream.write(reinterpret_cast<const char*>(this->Values.data()), this->NumberOfValues);
     this->NumberOfValues = 0;
   }
 }

@@ -35,8 +35,7 @@ public:
 
   int GetMultiple() const override;
   std::int64_t GetBytes() const override;
-  bool Add(
-    const std::uint32_t* words, const vtkVoxelGrid& slab, const Progress& progress) override;
+  bool Add(const std::uint32_t* words, const vtkVoxelGrid& slab, const Progress& progress) override;
   bool Finish(const Progress& progress) override;
 
 private:

@@ -179,8 +179,7 @@ int vtkSlicemapSolidVoxelizer::GetNumberOfWorkSlicemaps()
 void vtkSlicemapSolidVoxelizer::WarnOfLeaks()
 {
   // Once for all parts of an output.
-  const vtkMTimeType time =
-    std::max(this->GetMTime(), this->GetInputDataObject(0, 0)->GetMTime());
+  const vtkMTimeType time = std::max(this->GetMTime(), this->GetInputDataObject(0, 0)->GetMTime());
   if (this->NumberOfLeakingColumns == 0 || this->WarningTime == time)
   {
     return;

@@ -114,8 +114,8 @@ public:
 
   /**
    * Columns of the last run in which crossings did not cancel: 0 for a closed mesh. Columns along
-   * the axis used, in the part that was asked for; all three axes together with Vote. 0 with mode Boundary, which has no columns,
-   * and with CheckWatertight off.
+   * the axis used, in the part that was asked for; all three axes together with Vote. 0 with mode
+   * Boundary, which has no columns, and with CheckWatertight off.
    */
   vtkGetMacro(NumberOfLeakingColumns, vtkIdType);
 

@@ -295,8 +295,8 @@ bool vtkTetraCoveringVoxelizer::RunPass(
     auto& pass = GetKept<vtkSolidComputePass>(
       "tetrahedra compute pass", context, context, vtkSolidPass::Ties::UpperInside);
     // The same for all parts of an output.
-    const int axis = pass.GetCheapestAxis(
-      mesh, solid->GetGrid().WithExtent(this->GetWholeGrid().Extent));
+    const int axis =
+      pass.GetCheapestAxis(mesh, solid->GetGrid().WithExtent(this->GetWholeGrid().Extent));
     return pass.FillSolid(mesh, solid, axis, vtkSolidPass::Rule::Parity, progress);
   }
   auto& pass = GetKept<vtkTetraRasterPass>("tetrahedra raster pass", context, context);

@@ -302,8 +302,7 @@ template <typename Tree>
 bool vtkVDBGridFiller<Tree>::AddLayers(const std::uint32_t* words, const vtkVoxelGrid& slices,
   const std::function<bool(double)>& progress)
 {
-  const std::int64_t sliceWords =
-    vtkSlicemap::GetWordsPerRow(slices) * slices.GetDimensions().y;
+  const std::int64_t sliceWords = vtkSlicemap::GetWordsPerRow(slices) * slices.GetDimensions().y;
   const std::int64_t first = slices.Extent[4];
   const std::int64_t last = slices.Extent[5];
   std::array<int, 6> layer = slices.Extent;

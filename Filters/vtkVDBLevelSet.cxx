@@ -158,8 +158,7 @@ public:
   std::uint64_t GetPlane(int x, int dy, int dz) const
   {
     std::uint64_t plane;
-    std::memcpy(
-      &plane, &this->Bytes[LeafSide + dz][LeafSide + x][LeafSide + dy], sizeof(plane));
+    std::memcpy(&plane, &this->Bytes[LeafSide + dz][LeafSide + x][LeafSide + dy], sizeof(plane));
     vtkByteSwap::Swap8LE(&plane);
     return plane;
   }
@@ -242,8 +241,7 @@ private:
     return leaf;
   }
 
-  static void Assign(
-    Leaf& leaf, int x, std::uint64_t voxels, std::uint64_t inside, float distance)
+  static void Assign(Leaf& leaf, int x, std::uint64_t voxels, std::uint64_t inside, float distance)
   {
     float* const values = leaf.buffer().data() + x * PlaneSize;
     for (; voxels != 0; voxels &= voxels - 1)

@@ -39,8 +39,7 @@ public:
     return static_cast<std::int64_t>(this->Voxels->memUsage());
   }
 
-  bool Add(
-    const std::uint32_t* words, const vtkVoxelGrid& slab, const Progress& progress) override
+  bool Add(const std::uint32_t* words, const vtkVoxelGrid& slab, const Progress& progress) override
   {
     return this->Filler.AddLayers(words, slab, progress);
   }
@@ -93,7 +92,8 @@ public:
       });
     return !stopped &&
       this->Write(grid,
-        [&](double fraction) { return progress(ShareOfMaking + (1.0 - ShareOfMaking) * fraction); });
+        [&](double fraction)
+        { return progress(ShareOfMaking + (1.0 - ShareOfMaking) * fraction); });
   }
 
 private:

@@ -41,7 +41,7 @@ using Watcher = std::function<bool(double)>;
 
 constexpr char IndexName[] = "VoxelIndex";
 constexpr char DensityName[] = "Density";
-constexpr double ShareOfMaking = 0.7;  // of the progress
+constexpr double ShareOfMaking = 0.7; // of the progress
 
 struct Aborted
 {

@@ -129,8 +129,7 @@ public:
     const auto extent = (this->AreCells ? part.VoxelsToCells() : part).Extent;
     vtkNew<vtkInformationVector> requests;
     requests->SetNumberOfInformationObjects(this->Producer->GetNumberOfOutputPorts());
-    requests->GetInformationObject(this->Port)
-      ->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
+    requests->GetInformationObject(this->Port)->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
     const bool updated = this->Producer->Update(this->Port, requests) != 0;
     auto* image = vtkImageData::SafeDownCast(this->Producer->GetOutputDataObject(this->Port));
     const bool isThere = image && !vtkVoxelGrid::FromImage(image).IsEmpty();
@@ -302,19 +301,18 @@ private:
     const vtkVoxelGrid& whole = this->From.GetWhole();
     auto extent = whole.Extent;
     extent[2 * axis] = static_cast<int>(first);
-    const auto last = this->From.CanMakeParts()
-      ? first + this->GetSlices(first) - 1
-      : std::numeric_limits<std::int64_t>::max();
-    extent[2 * axis + 1] = static_cast<int>(std::min<std::int64_t>(last, whole.Extent[2 * axis + 1]));
+    const auto last = this->From.CanMakeParts() ? first + this->GetSlices(first) - 1
+                                                : std::numeric_limits<std::int64_t>::max();
+    extent[2 * axis + 1] =
+      static_cast<int>(std::min<std::int64_t>(last, whole.Extent[2 * axis + 1]));
     const vtkVoxelGrid slab = whole.WithExtent(extent);
     const vtkImageVoxels voxels(this->From.Update(slab));
     voxels.Check();
     extent[2 * axis + 1] = voxels.Grid.Extent[2 * axis + 1];
     if (voxels.Grid.Extent != extent || extent[2 * axis + 1] < slab.Extent[2 * axis + 1])
     {
-      Refuse(std::string(this->From.GetName()) + " was asked for voxels of the " +
-        slab.Describe() + ", and gave others: " + voxels.Grid.Describe() +
-        ". It can't be written in slabs.");
+      Refuse(std::string(this->From.GetName()) + " was asked for voxels of the " + slab.Describe() +
+        ", and gave others: " + voxels.Grid.Describe() + ". It can't be written in slabs.");
     }
     const double begin = double(first) - whole.Extent[2 * axis];
     const double n = whole.GetDimensions()[axis];
@@ -378,10 +376,10 @@ private:
     {
       throw vtkVoxelFileError(MemoryLimitError,
         what + " takes " + std::to_string(std::llround(bytes / mebibyte)) + " MiB, and " +
-        std::to_string(std::llround(this->Limit / mebibyte)) + " MiB are " +
-        (this->Writer->MemoryLimit > 0 ? "the limit of memory. Raise it"
-                                       : "half of what is free. Set a limit of memory") +
-        ", or use fewer voxels.");
+          std::to_string(std::llround(this->Limit / mebibyte)) + " MiB are " +
+          (this->Writer->MemoryLimit > 0 ? "the limit of memory. Raise it"
+                                         : "half of what is free. Set a limit of memory") +
+          ", or use fewer voxels.");
     }
   }
 
@@ -486,8 +484,7 @@ void vtkVoxelSlabWriter::WriteData()
     {
       Refuse("There is no input. Connect a voxelizer.");
     }
-    const int format =
-      this->Format == FORMAT_AUTO ? GetFormatOfFile(this->FileName) : this->Format;
+    const int format = this->Format == FORMAT_AUTO ? GetFormatOfFile(this->FileName) : this->Format;
     const std::string name = this->FileName ? this->FileName : "";
     if (!name.empty() && format == FORMAT_AUTO)
     {

@@ -15,14 +15,14 @@
  * <b>Formats</b>, by the extension of FileName, or by Format:
  *  - .vdb: a sparse grid "Occupancy" of OccupancyGrid, as vtkVDBVoxelWriter writes it; it grows in
  *    memory and is written at the end. Only where this module was built with OpenVDB.
- *  - .vti: an image with the array "Occupancy" of ScalarType, appended raw, in blocks packed by zlib
- *    (Compressed, default) or in one piece.
+ *  - .vti: an image with the array "Occupancy" of ScalarType, appended raw, in blocks packed by
+ * zlib (Compressed, default) or in one piece.
  *  - .binvox: run lengths, as vtkBinvoxWriter writes them; the slabs lie along x.
  * Set voxels alone are written, no other arrays.
  *
- * <b>Memory.</b> Slabs are as thick as MemoryLimit allows, counting the bits, scalars and buffers of
- * a voxelizer, what a .vdb grid has grown to and what its level set will take. Not counted are the
- * mesh, and what VTK and OpenGL need to exist, some 200 MiB with a renderer in software.
+ * <b>Memory.</b> Slabs are as thick as MemoryLimit allows, counting the bits, scalars and buffers
+ * of a voxelizer, what a .vdb grid has grown to and what its level set will take. Not counted are
+ * the mesh, and what VTK and OpenGL need to exist, some 200 MiB with a renderer in software.
  *
  * <b>Errors.</b> One error, and no file, or the former one as it was: no input, no file name, a
  * format that is not known, or that can't hold the grid, a limit too small for the thinnest slab,
@@ -36,7 +36,7 @@
 #ifndef vtkVoxelSlabWriter_h
 #define vtkVoxelSlabWriter_h
 
-#include "vtkErrorCode.h"           // for errors
+#include "vtkErrorCode.h"          // for errors
 #include "vtkVoxelizationModule.h" // for export macro
 #include "vtkWriter.h"
 

@@ -14,8 +14,8 @@
 #include <functional>
 
 /**
- * One file, whose stream and grid the constructor of a format gets. Slabs come in the order of their
- * indices along one axis, without gaps, and hold all voxels of the grid along the others. All
+ * One file, whose stream and grid the constructor of a format gets. Slabs come in the order of
+ * their indices along one axis, without gaps, and hold all voxels of the grid along the others. All
  * functions but the getters throw vtkVoxelFileError when bytes don't arrive.
  */
 class vtkVoxelSlabs
@@ -46,7 +46,8 @@ public:
 
   ///@{
   /**
-   * Adds the words of a slab, in the layout of vtkSlicemap; writes what is left. False when stopped.
+   * Adds the words of a slab, in the layout of vtkSlicemap; writes what is left. False when
+   * stopped.
    */
   virtual bool Add(
     const std::uint32_t* words, const vtkVoxelGrid& slab, const Progress& progress) = 0;

@@ -221,7 +221,10 @@ protected:
   /**
    * Number of slicemaps that a run has at a time on the grid of its output. Here: 1.
    */
-  virtual int GetNumberOfWorkSlicemaps() { return 1; }
+  virtual int GetNumberOfWorkSlicemaps()
+  {
+    return 1;
+  }
 
   /**
    * The grid of the whole output during a run. What must not depend on which part is asked for is
@@ -232,7 +235,10 @@ protected:
   /**
    * Bytes a voxel that these arrays take.
    */
-  virtual std::int64_t GetBytesOfArrays() { return 0; }
+  virtual std::int64_t GetBytesOfArrays()
+  {
+    return 0;
+  }
   std::int64_t GetBytesOfOutput(const vtkVoxelGrid& grid) override;
 
   /**
@@ -247,7 +253,10 @@ protected:
    * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into
    * fans, which keep parity and winding also for concave polygons, and are cheaper.
    */
-  virtual bool NeedsExactTriangulation() { return false; }
+  virtual bool NeedsExactTriangulation()
+  {
+    return false;
+  }
 
   /**
    * Backend to run: Backend, with Auto resolved for the current context. Reports an error and

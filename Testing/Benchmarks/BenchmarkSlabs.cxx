@@ -2,7 +2,8 @@
 // file on the disk, and tells what memory the process had at its peak. Arguments of a row: voxels
 // along the longest side of the mesh.
 //
-//   VDB/MESH, VTI/MESH, Binvox/MESH  vtkSlicemapSolidVoxelizer and vtkVoxelSlabWriter; .vdb as a mask
+//   VDB/MESH, VTI/MESH, Binvox/MESH  vtkSlicemapSolidVoxelizer and vtkVoxelSlabWriter; .vdb as a
+//   mask
 //
 // "peak_MiB" is the peak of the resident memory during the row, of the whole process (Linux);
 // "slabs" is their number, "filled" the sum of their set voxels, and "active" those that OpenVDB
@@ -96,8 +97,8 @@ int main(int argc, char* argv[])
   openvdb::initialize();
   for (const auto& [name, mesh] : MeshesOfFiles())
   {
-    const auto add = [&, mesh = mesh](
-                       const std::string& title, const char* extension, const std::vector<int>& sizes)
+    const auto add = [&, mesh = mesh](const std::string& title, const char* extension,
+                       const std::vector<int>& sizes)
     {
       for (const int size : sizes)
       {

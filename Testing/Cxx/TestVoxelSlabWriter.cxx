@@ -1,9 +1,9 @@
 // Proves that voxels written slab by slab are those of the whole, bit for bit: for every voxelizer,
 // its modes, fill rules and backends, closed and open meshes, grids that begin anywhere, points and
 // cells, data that are there already and filters that can't work in parts, in every format and with
-// slabs of any thickness. That no more memory is asked for than the limit allows, and none is leaked
-// from one write to the next update. And that bad input, a full disk and an abort end in one error,
-// or none, and leave no file, or the former one.
+// slabs of any thickness. That no more memory is asked for than the limit allows, and none is
+// leaked from one write to the next update. And that bad input, a full disk and an abort end in one
+// error, or none, and leave no file, or the former one.
 
 #include "VoxelFilterTests.h"
 #include "VoxelSolidTests.h"
@@ -249,16 +249,16 @@ void TestModes(VoxelTestChecks& checks)
   const auto knot = MakeKnot();
   for (const int backend : { Solid::BACKEND_COMPUTE, Solid::BACKEND_RASTER })
   {
-    for (const int mode : { Solid::MODE_OVER_CONSERVATIVE, Solid::MODE_UNDER_CONSERVATIVE,
-           Solid::MODE_BOUNDARY })
+    for (const int mode :
+      { Solid::MODE_OVER_CONSERVATIVE, Solid::MODE_UNDER_CONSERVATIVE, Solid::MODE_BOUNDARY })
     {
       vtkNew<Solid> voxelizer;
       voxelizer->SetInputData(knot);
       voxelizer->SetResolution(45);
       voxelizer->SetBackend(backend);
       voxelizer->SetMode(mode);
-      CheckVoxelizer(checks,
-        VoxelSolidTests::NameOf(backend) + ", mode " + std::to_string(mode), voxelizer, { 7 });
+      CheckVoxelizer(checks, VoxelSolidTests::NameOf(backend) + ", mode " + std::to_string(mode),
+        voxelizer, { 7 });
     }
   }
 }
@@ -316,8 +316,7 @@ void TestGrids(VoxelTestChecks& checks)
     const double* bounds = grid->GetBounds();
     const double radius =
       0.6 * std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4], 1.0 });
-    voxelizer->SetInputData(
-      VoxelTestMeshes::Sphere({ centre[0], centre[1], centre[2] }, radius));
+    voxelizer->SetInputData(VoxelTestMeshes::Sphere({ centre[0], centre[1], centre[2] }, radius));
     voxelizer->SetReferenceImage(grid);
     for (const bool cells : { false, true })
     {
@@ -336,13 +335,12 @@ void TestOtherSources(VoxelTestChecks& checks)
   {
     for (const bool cells : { false, true })
     {
-      const Image mask = VoxelFilterTests::MakeMask(
-        grid, VoxelFilterTests::RandomVoxels(grid, 7), type, cells);
+      const Image mask =
+        VoxelFilterTests::MakeMask(grid, VoxelFilterTests::RandomVoxels(grid, 7), type, cells);
       vtkNew<vtkVoxelMorphology> keeps;
       keeps->SetInputData(mask);
       keeps->Update();
-      const std::string title =
-        "type " + std::to_string(type) + (cells ? ", cells" : ", points");
+      const std::string title = "type " + std::to_string(type) + (cells ? ", cells" : ", points");
       vtkNew<vtkTrivialProducer> producer;
       producer->SetOutput(mask);
       CheckSlabs(checks, title, producer, mask, 4);
@@ -427,8 +425,8 @@ void TestGridsOfOpenVDB(VoxelTestChecks& checks)
       const Image expected = ReadFile(PathOf("whole.vdb"));
       vtkDataArray* a = GetVoxels(found);
       vtkDataArray* b = GetVoxels(expected);
-      bool same = a->GetDataType() == b->GetDataType() &&
-        a->GetNumberOfTuples() == b->GetNumberOfTuples();
+      bool same =
+        a->GetDataType() == b->GetDataType() && a->GetNumberOfTuples() == b->GetNumberOfTuples();
       for (vtkIdType i = 0; same && i < a->GetNumberOfTuples(); ++i)
       {
         same = a->GetComponent(i, 0) == b->GetComponent(i, 0);
@@ -550,7 +548,8 @@ void TestRefusals(VoxelTestChecks& checks)
       const VoxelTestAbort abort(voxelizer, 1);
       VoxelTestObserver observer(writer);
       checks.Equal(extension + ", stopped upstream: not written", writer->Write(), 0);
-      checks.Equal(extension + ", stopped upstream: errors", observer.Errors.size(), std::size_t(0));
+      checks.Equal(
+        extension + ", stopped upstream: errors", observer.Errors.size(), std::size_t(0));
       ExpectFormerFile(checks, extension + ", stopped upstream", name);
     }
     checks.Equal(extension + ": and then", writer->Write(), 1);

@@ -156,7 +156,7 @@ class ProgramSlabs(unittest.TestCase):
                             capture_output=True).returncode == 0), None)
         if not unshare:
             self.skipTest("file systems can't be mounted here")
-        script = ("mount -t tmpfs -o size=64k tmpfs . && printf 'as it was' >out$1 && shift && "
+        script = ("mount -t tmpfs -o size=64k tmpfs \"$PWD\" && cd \"$PWD\" && printf 'as it was' >out$1 && shift && "
                   "\"$@\"; code=$?; cat out*; ls -A | wc -l; exit $code")
         for extension in FORMATS:
             # Runs of .binvox and blocks of .vti pack well.

@@ -265,8 +265,8 @@ void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& ter
   }
 }
 
-std::int64_t VoxelOutput::WriteSlabs(vtkVoxelAlgorithm* voxels, const Options& options,
-  Messages& messages, Terminal& terminal) const
+std::int64_t VoxelOutput::WriteSlabs(
+  vtkVoxelAlgorithm* voxels, const Options& options, Messages& messages, Terminal& terminal) const
 {
   vtkNew<vtkVoxelSlabWriter> writer;
   writer->SetFileName(this->File.c_str());

@@ -48,9 +48,9 @@ public:
   void Write(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
 
   /**
-   * Has the voxels made slab by slab, within the limit of the options, and writes them to the staged
-   * file. Returns how many are set. Throws Failure with ExitCode::Voxelization when they can't be
-   * made so, else what Write throws.
+   * Has the voxels made slab by slab, within the limit of the options, and writes them to the
+   * staged file. Returns how many are set. Throws Failure with ExitCode::Voxelization when they
+   * can't be made so, else what Write throws.
    */
   std::int64_t WriteSlabs(vtkVoxelAlgorithm* voxels, const Options& options, Messages& messages,
     Terminal& terminal) const;

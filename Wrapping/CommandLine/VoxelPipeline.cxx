@@ -117,8 +117,7 @@ void VoxelPipeline::Read()
   VoxelizerFactory::SetOutput(this->GetResult(), this->Asked);
   const bool hasArrays =
     this->Asked.Picture || this->Asked.Texture || !this->Asked.Attributes.empty();
-  const bool takesBits =
-    this->Asked.MemoryLimit || VoxelOutput::TakesSlicemap(this->Asked.Output);
+  const bool takesBits = this->Asked.MemoryLimit || VoxelOutput::TakesSlicemap(this->Asked.Output);
   this->GetResult()->SetHostOutput(hasArrays || !takesBits);
 }
 
