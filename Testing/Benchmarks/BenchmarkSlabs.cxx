@@ -1,6 +1,6 @@
 // Times files that vtkVoxelSlabWriter makes of solids slab by slab within 1 GiB, mesh in memory to
 // file on the disk, and tells what memory the process had at its peak. Arguments of a row: voxels
-// along the longest side of the mesh.
+// along each side of the grid, the longest of which is that of the mesh.
 //
 //   VDB/MESH, VTI/MESH, Binvox/MESH  vtkSlicemapSolidVoxelizer and vtkVoxelSlabWriter; .vdb as a
 //   mask
@@ -64,7 +64,8 @@ void Slabs(benchmark::State& state, const Mesh& mesh, const std::string& extensi
     (std::filesystem::temp_directory_path() / ("BenchmarkSlabs" + extension)).string();
   vtkNew<vtkSlicemapSolidVoxelizer> voxelizer;
   voxelizer->SetInputData(mesh);
-  voxelizer->SetResolution(static_cast<int>(state.range(0)));
+  const int n = static_cast<int>(state.range(0));
+  voxelizer->SetSampleDimensions(n, n, n);
   voxelizer->HostOutputOff();
   vtkNew<vtkVoxelSlabWriter> writer;
   writer->SetInputConnection(voxelizer->GetOutputPort());
