@@ -360,6 +360,21 @@ bool vtkDepthBufferVoxelizer::Voxelize(
   return this->ReportProgress(1.0);
 }
 
+std::int64_t vtkDepthBufferVoxelizer::EstimateBytes(const vtkVoxelGrid& part)
+{
+  // Those of the whole: two depths, ranges and shells.
+  constexpr std::int64_t bytesPerPixel = 4 * 4;
+  const auto grid = vtkVoxelGrid::FromInformation(this->GetOutputInformation(0));
+  const glm::i64vec3 n(grid.GetDimensions());
+  const glm::i64vec3 pixels(n.y * n.z, n.x * n.z, n.x * n.y);
+  std::int64_t bytes = this->Superclass::EstimateBytes(part);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bytes += this->Axes[axis] ? pixels[axis] * bytesPerPixel : 0;
+  }
+  return bytes;
+}
+
 std::int64_t vtkDepthBufferVoxelizer::GetBytesOfArrays()
 {
   return this->OutputMode == OUTPUT_MODE_DENSITY ? static_cast<std::int64_t>(sizeof(float)) : 0;

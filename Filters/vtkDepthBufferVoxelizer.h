@@ -163,6 +163,10 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+#ifndef __VTK_WRAP__
+  std::int64_t EstimateBytes(const vtkVoxelGrid& part) override;
+#endif
+
 protected:
   vtkDepthBufferVoxelizer();
   ~vtkDepthBufferVoxelizer() override;
@@ -171,7 +175,10 @@ protected:
   bool GetInputBounds(vtkDataObject* input, double bounds[6]) override;
   void Prepare(const vtkVoxelGrid& whole) override;
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
-  bool NeedsExactTriangulation() override { return true; }
+  bool NeedsExactTriangulation() override
+  {
+    return true;
+  }
   bool AddArrays(
     vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkDataSetAttributes* voxels) override;
   std::int64_t GetBytesOfArrays() override;

@@ -280,6 +280,12 @@ void vtkTetraCoveringVoxelizer::PrepareDisplacement(const vtkTetraAugmentation& 
   }
 }
 
+int vtkTetraCoveringVoxelizer::GetNumberOfWorkSlicemaps()
+{
+  constexpr int ofShell = 3;
+  return this->Shell == SHELL_NONE ? 1 : ofShell;
+}
+
 bool vtkTetraCoveringVoxelizer::RunPass(
   vtkVoxelMesh& mesh, vtkSlicemap* solid, const std::function<bool(double)>& progress)
 {
@@ -288,7 +294,9 @@ bool vtkTetraCoveringVoxelizer::RunPass(
   {
     auto& pass = GetKept<vtkSolidComputePass>(
       "tetrahedra compute pass", context, context, vtkSolidPass::Ties::UpperInside);
-    const int axis = pass.GetCheapestAxis(mesh, solid->GetGrid());
+    // The same for all parts of an output.
+    const int axis =
+      pass.GetCheapestAxis(mesh, solid->GetGrid().WithExtent(this->GetWholeGrid().Extent));
     return pass.FillSolid(mesh, solid, axis, vtkSolidPass::Rule::Parity, progress);
   }
   auto& pass = GetKept<vtkTetraRasterPass>("tetrahedra raster pass", context, context);

@@ -278,6 +278,7 @@ protected:
   ~vtkTetraCoveringVoxelizer() override;
 
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
+  int GetNumberOfWorkSlicemaps() override;
   int RequestInformation(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool AddArrays(

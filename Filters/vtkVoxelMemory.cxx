@@ -14,17 +14,17 @@ constexpr double BytesPerMebibyte = 1048576.0;
 /// Ask the system for its free memory only for outputs that could matter.
 constexpr std::int64_t CarelessBytes = std::int64_t(1) << 28;
 
-std::int64_t GetFreeBytes()
+std::int64_t GetAllowedBytes(std::int64_t limit)
+{
+  return limit > 0 ? limit : vtkVoxelMemory::GetFreeBytes();
+}
+}
+
+std::int64_t vtkVoxelMemory::GetFreeBytes()
 {
   vtksys::SystemInformation system;
   system.RunMemoryCheck();
   return static_cast<std::int64_t>(system.GetAvailablePhysicalMemory()) * 1048576;
-}
-
-std::int64_t GetAllowedBytes(std::int64_t limit)
-{
-  return limit > 0 ? limit : GetFreeBytes();
-}
 }
 
 bool vtkVoxelMemory::Fits(std::int64_t bytes, std::int64_t limit)

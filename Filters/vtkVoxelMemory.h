@@ -13,6 +13,9 @@
 
 namespace vtkVoxelMemory
 {
+/// What the system says is free, or can be freed at once.
+std::int64_t GetFreeBytes();
+
 /**
  * Whether so many bytes are no more than `limit`, or than are free where the limit is 0.
  */

@@ -148,20 +148,9 @@ vtkSmartPointer<vtkDataArray> NewArray(
 void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, vtkDataArray* array)
 {
-  const glm::ivec3 n = grid.GetDimensions();
-  const std::int64_t rows = std::int64_t(n.y) * n.z;
-  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
   if (auto* bits = vtkBitArray::SafeDownCast(array))
   {
-    // Eight rows end at a whole byte.
-    unsigned char* out = bits->GetPointer(0);
-    vtkSMPTools::For(0, (rows + 7) / 8,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        const std::int64_t first = std::int64_t(begin) * 8;
-        ExpandRowsToBits(words + first * wordsPerRow, wordsPerRow,
-          std::min<std::int64_t>(std::int64_t(end) * 8, rows) - first, n.x, out + first * n.x / 8);
-      });
+    ExpandToBits(words, grid, bits->GetPointer(0));
     return;
   }
   ExpandRows<vtkVoxelInitially::Zero>(
@@ -172,6 +161,21 @@ void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out)
 {
   ExpandRows<vtkVoxelInitially::Undefined>(words, grid, foregroundValue, out);
+}
+
+void ExpandToBits(const std::uint32_t* words, const vtkVoxelGrid& grid, unsigned char* out)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t rows = std::int64_t(n.y) * n.z;
+  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
+  // Eight rows end at a whole byte.
+  vtkSMPTools::For(0, (rows + 7) / 8,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      const std::int64_t first = std::int64_t(begin) * 8;
+      ExpandRowsToBits(words + first * wordsPerRow, wordsPerRow,
+        std::min<std::int64_t>(std::int64_t(end) * 8, rows) - first, n.x, out + first * n.x / 8);
+    });
 }
 
 void Overlay(const std::uint32_t* words, const vtkVoxelGrid& grid, int value, unsigned char* out)

@@ -56,6 +56,12 @@ void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out);
 
 /**
+ * Bits to bits as vtkBitArray has them, row after row without gaps, the most significant one of a
+ * byte first.
+ */
+void ExpandToBits(const std::uint32_t* words, const vtkVoxelGrid& grid, unsigned char* out);
+
+/**
  * The value of the voxels whose bits are set; other bytes stay as they are.
  */
 void Overlay(const std::uint32_t* words, const vtkVoxelGrid& grid, int value, unsigned char* out);

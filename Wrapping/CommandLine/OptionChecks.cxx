@@ -259,6 +259,22 @@ void CheckSteps(const Options& options, const Names& given)
   }
 }
 
+void CheckSlabs(const Options& options, const Names& given)
+{
+  if (!options.MemoryLimit)
+  {
+    return;
+  }
+  RefuseTogether(given, "--memory-limit", { "--picture", "--attributes", "--texture" },
+    "voxels that are made in slabs are set or not, and gone when they are written");
+  if (!VoxelOutput::TakesSlabs(options.Output))
+  {
+    Argument::RefuseUsage("--memory-limit and OUTPUT " + options.Output +
+      " contradict each other: formats that are written in slabs are " +
+      VoxelOutput::GetExtensionsOfSlabs());
+  }
+}
+
 /// Voxels of a file are written as they are.
 void CheckVoxels(const Options& options, const Names& given)
 {
@@ -300,4 +316,5 @@ void OptionChecks::Check(const Options& options, const Names& given)
   CheckTogether(options, given);
   CheckOutput(options, given);
   CheckSteps(options, given);
+  CheckSlabs(options, given);
 }

@@ -279,6 +279,10 @@ const std::vector<Group>& GetGroups()
           [](Options& o, const Argument& a) { o.Value = a.AsInteger(1, 255); } },
         { "--cells", nullptr, "voxels are the cells of the image, instead of its points",
           [](Options& o, const Argument&) { o.Cells = true; } },
+        { "--memory-limit", "SIZE",
+          "make and write the voxels in slabs that take no more memory than this, 1G say,\n"
+          "for grids larger than memory; for @SLABS@",
+          [](Options& o, const Argument& a) { o.MemoryLimit = a.AsBytes(); } },
         { "--picture", "FILE.png",
           "also draw the voxels that are set, coloured by the texture or else by the first\n"
           "attribute: numbers from blue, the least, to red, vectors by their length",
@@ -367,6 +371,7 @@ void PrintDefinition(std::ostream& out, const Definition& definition)
   std::string indent;
   std::string help = Replaced(definition.Help, "any of @REFERENCES@", ImageReader::GetExtensions());
   help = Replaced(help, "@MASKS@", ImageReader::GetImageExtensions());
+  help = Replaced(help, "@SLABS@", VoxelOutput::GetExtensionsOfSlabs());
   std::istringstream lines(Replaced(help, "@TEXTURES@", TextureImage::GetExtensions()));
   for (std::string line; std::getline(lines, line); indent = "\n" + std::string(column, ' '))
   {
@@ -482,6 +487,7 @@ std::string Options::GetHelp()
        "  vtkvoxelize part.stl rest.vti --subtract drill.stl --kernel sphere --open 2\n"
        "  vtkvoxelize --reference mask.nii.gz liver.stl shell.mha --dilate 3 --subtract "
        "mask.nii.gz\n"
+       "  vtkvoxelize --resolution 4096 --memory-limit 1G bunny.ply bunny.vdb\n"
        "  vtkvoxelize ct.mha bone.vti --iso 300 --keep-largest --fill-holes\n"
        "  vtkvoxelize labels.nrrd liver.mha --label 6 --subtract tumour.stl\n"
        "\nExit codes:\n"

@@ -9,6 +9,7 @@
 #define Options_h
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -104,6 +105,9 @@ struct Options
   std::optional<int> ScalarType;
   std::optional<int> Value;
   bool Cells = false;
+
+  /// Bytes that slabs may take; unset is no slabs, but all voxels at once.
+  std::optional<std::int64_t> MemoryLimit;
 
   std::optional<std::string> Picture;
   std::optional<int> UpAxis;

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VoxelOutput.h"
 
+#include "Failure.h"
 #include "FileNames.h"
 #include "Messages.h"
+#include "Options.h"
 #include "OutputFile.h"
 #include "StagedFiles.h"
 #include "Terminal.h"
@@ -17,6 +19,8 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVoxelAlgorithm.h"
+#include "vtkVoxelSlabWriter.h"
 #include "vtkXMLHyperTreeGridWriter.h"
 #include "vtkXMLImageDataWriter.h"
 #include "vtkXMLPolyDataWriter.h"
@@ -261,6 +265,35 @@ void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& ter
   }
 }
 
+std::int64_t VoxelOutput::WriteSlabs(
+  vtkVoxelAlgorithm* voxels, const Options& options, Messages& messages, Terminal& terminal) const
+{
+  vtkNew<vtkVoxelSlabWriter> writer;
+  writer->SetFileName(this->File.c_str());
+  writer->InPlaceOn();
+  writer->SetInputConnection(voxels->GetOutputPort());
+  writer->SetMemoryLimit(options.MemoryLimit.value_or(0));
+  writer->SetScalarType(options.ScalarType.value_or(writer->GetScalarType()));
+  writer->SetForegroundValue(options.Value.value_or(writer->GetForegroundValue()));
+  terminal.Watch(writer, "voxelizing");
+  errno = 0;
+  writer->Write();
+  const int error = errno;
+  switch (writer->GetErrorCode())
+  {
+    case vtkErrorCode::NoError:
+      return writer->GetNumberOfFilledVoxels();
+    case vtkErrorCode::OutOfDiskSpaceError:
+      messages.TakeReason();
+      this->Refuse(OutputFile::Describe(error));
+    case vtkVoxelSlabWriter::MemoryLimitError:
+    case vtkVoxelSlabWriter::UpstreamError:
+      throw Failure(ExitCode::Voxelization, messages.TakeReason());
+    default:
+      this->Refuse(messages.TakeReason());
+  }
+}
+
 void VoxelOutput::WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
 {
   vtkNew<vtkZLibDataCompressor> compressor;
@@ -345,6 +378,24 @@ bool VoxelOutput::TakesSlicemap(const std::string& target)
 {
   const std::string extension = FileNames::GetExtension(target);
   return extension == BinvoxExtension || extension == VDBExtension;
+}
+
+bool VoxelOutput::TakesSlabs(const std::string& target)
+{
+  return vtkVoxelSlabWriter::GetFormatOfFile(target.c_str()) != vtkVoxelSlabWriter::FORMAT_AUTO;
+}
+
+std::string VoxelOutput::GetExtensionsOfSlabs()
+{
+  std::string extensions;
+  for (const Format& format : Formats)
+  {
+    if (TakesSlabs(std::string("voxels") + format.Extension))
+    {
+      extensions += (extensions.empty() ? "" : ", ") + std::string(format.Extension);
+    }
+  }
+  return extensions;
 }
 
 std::string VoxelOutput::GetExtensions()

@@ -8,13 +8,16 @@
 #ifndef VoxelOutput_h
 #define VoxelOutput_h
 
+#include <cstdint>
 #include <string>
 
 class Messages;
+struct Options;
 class StagedFiles;
 class Terminal;
 class vtkDataObject;
 class vtkImageData;
+class vtkVoxelAlgorithm;
 
 /**
  * The file, or for .mhd two files, that the voxels go to: those of VTK's XML by its writers,
@@ -44,6 +47,14 @@ public:
    */
   void Write(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
 
+  /**
+   * Has the voxels made slab by slab, within the limit of the options, and writes them to the
+   * staged file. Returns how many are set. Throws Failure with ExitCode::Voxelization when they
+   * can't be made so, else what Write throws.
+   */
+  std::int64_t WriteSlabs(vtkVoxelAlgorithm* voxels, const Options& options, Messages& messages,
+    Terminal& terminal) const;
+
   /// What a file of this name holds; an image where the extension is not known.
   static Kind GetKind(const std::string& target);
 
@@ -58,6 +69,14 @@ public:
 
   /// Whether set voxels are written from a slicemap, without an array of them.
   static bool TakesSlicemap(const std::string& target);
+
+  ///@{
+  /**
+   * Whether a file of this name can be written by WriteSlabs, and those that can, for messages.
+   */
+  static bool TakesSlabs(const std::string& target);
+  static std::string GetExtensionsOfSlabs();
+  ///@}
 
   /// What can be written, for messages: ".vti, .mha ...".
   static std::string GetExtensions();

@@ -117,7 +117,8 @@ void VoxelPipeline::Read()
   VoxelizerFactory::SetOutput(this->GetResult(), this->Asked);
   const bool hasArrays =
     this->Asked.Picture || this->Asked.Texture || !this->Asked.Attributes.empty();
-  this->GetResult()->SetHostOutput(hasArrays || !VoxelOutput::TakesSlicemap(this->Asked.Output));
+  const bool takesBits = this->Asked.MemoryLimit || VoxelOutput::TakesSlicemap(this->Asked.Output);
+  this->GetResult()->SetHostOutput(hasArrays || !takesBits);
 }
 
 void VoxelPipeline::FitGrid()
@@ -216,11 +217,22 @@ void VoxelPipeline::Update(
   this->Shown.Watch(algorithm, "voxelizing");
   algorithm->Update(static_cast<int>(kind));
   RefuseErrors(this->Said);
+  this->Conclude(algorithm, algorithm->GetNumberOfFilledVoxels(), label);
+}
+
+void VoxelPipeline::RunInSlabs(const std::function<vtkIdType(vtkVoxelAlgorithm* result)>& write)
+{
+  this->Conclude(this->GetResult(), write(this->GetResult()), "");
+}
+
+void VoxelPipeline::Conclude(
+  vtkVoxelAlgorithm* algorithm, vtkIdType filled, const std::string& label)
+{
   for (const std::string& warning : this->Said.TakeWarnings())
   {
     this->Shown.PrintWarning(label + warning);
   }
-  if (algorithm->GetNumberOfFilledVoxels() == 0)
+  if (filled == 0)
   {
     this->Shown.PrintWarning(label + "no voxel is set: " + this->ExplainEmptiness(algorithm));
   }

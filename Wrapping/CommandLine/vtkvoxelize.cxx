@@ -21,6 +21,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
 namespace
 {
@@ -108,13 +109,30 @@ void Run(const Options& options, Terminal& terminal)
 
   Report report;
   report.Time("reading", [&] { pipeline.Read(); });
-  report.Time("voxelizing", [&] { pipeline.Run(kind); });
-  report.Time("writing",
-    [&]
-    {
-      output.Write(
-        pipeline.GetResult()->GetOutputDataObject(static_cast<int>(kind)), messages, terminal);
-    });
+  std::optional<vtkIdType> filledInSlabs;
+  if (options.MemoryLimit)
+  {
+    report.Time("slabs",
+      [&]
+      {
+        pipeline.RunInSlabs(
+          [&](vtkVoxelAlgorithm* result)
+          {
+            filledInSlabs = output.WriteSlabs(result, options, messages, terminal);
+            return *filledInSlabs;
+          });
+      });
+  }
+  else
+  {
+    report.Time("voxelizing", [&] { pipeline.Run(kind); });
+    report.Time("writing",
+      [&]
+      {
+        output.Write(
+          pipeline.GetResult()->GetOutputDataObject(static_cast<int>(kind)), messages, terminal);
+      });
+  }
   if (options.Picture)
   {
     report.Time(
@@ -124,7 +142,7 @@ void Run(const Options& options, Terminal& terminal)
   terminal.ClearBar();
   if (options.Info)
   {
-    report.Describe(pipeline);
+    report.Describe(pipeline, filledInSlabs);
     report.Print();
   }
 }
