@@ -17,6 +17,7 @@
 #include "vtkSlicemapKernel.h" // for vtkSlicemapTexture
 #include "vtkSlicemapQuadKernel.h"
 #include "vtkSolidComputePass.h"
+#include "vtkSolidRasterPass.h"
 #include "vtkTetraAugmentation.h"
 #include "vtkTetraModel.h"
 #include "vtkTetraRasterPass.h"
@@ -96,6 +97,13 @@ void CopyPart(vtkSlicemap* all, const vtkVoxelGrid& grid, vtkSlicemap* part)
   AllocateOrThrow(part, grid);
   const glm::ivec3 offset = all->GetGrid().GetFirst() - grid.GetFirst();
   part->CopyVoxels(all, { offset.x, offset.y, offset.z });
+}
+
+bool FillColumns(vtkSolidPass& pass, const vtkVoxelMesh& mesh, vtkSlicemap* solid,
+  const std::function<bool(double)>& progress)
+{
+  const int axis = pass.GetCheapestAxis(mesh, solid->GetGrid());
+  return pass.FillSolid(mesh, solid, axis, vtkSolidPass::Rule::Parity, progress);
 }
 
 /// The ring of a seed is kept with the context: all models of a data set have it in common.
@@ -283,13 +291,19 @@ void vtkTetraCoveringVoxelizer::PrepareDisplacement(const vtkTetraAugmentation& 
 bool vtkTetraCoveringVoxelizer::RunPass(
   vtkVoxelMesh& mesh, vtkSlicemap* solid, const std::function<bool(double)>& progress)
 {
+  constexpr auto ties = vtkSolidPass::Ties::UpperInside;
   const auto context = this->GetContext()->GetRecord();
   if (this->GetUsedBackend() == BACKEND_COMPUTE)
   {
-    auto& pass = GetKept<vtkSolidComputePass>(
-      "tetrahedra compute pass", context, context, vtkSolidPass::Ties::UpperInside);
-    const int axis = pass.GetCheapestAxis(mesh, solid->GetGrid());
-    return pass.FillSolid(mesh, solid, axis, vtkSolidPass::Rule::Parity, progress);
+    return FillColumns(
+      GetKept<vtkSolidComputePass>("tetrahedra compute pass", context, context, ties), mesh, solid,
+      progress);
+  }
+  if (this->RasterMethod == RASTER_COLUMNS)
+  {
+    return FillColumns(
+      GetKept<vtkSolidRasterPass>("tetrahedra columns pass", context, context, ties), mesh, solid,
+      progress);
   }
   auto& pass = GetKept<vtkTetraRasterPass>("tetrahedra raster pass", context, context);
   const auto method = this->RasterMethod == RASTER_SLICES ? vtkTetraRasterPass::Method::Slices
@@ -616,6 +630,7 @@ bool vtkTetraCoveringVoxelizer::GetVariantMesh(vtkTypeInt64 variant, vtkPolyData
 void vtkTetraCoveringVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const char* const methods[] = { "Slices", "Layers", "Columns" };
   const char* const rotations[] = { "Fixed", "Uniform", "Axis" };
   const char* const distributions[] = { "Uniform", "Normal" };
   const char* const directions[] = { "Free", "AlongNormal" };
@@ -628,8 +643,7 @@ void vtkTetraCoveringVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
     }
     os << "\n";
   };
-  os << indent << "RasterMethod: " << (this->RasterMethod == RASTER_SLICES ? "Slices" : "Layers")
-     << "\n";
+  os << indent << "RasterMethod: " << methods[this->RasterMethod] << "\n";
   os << indent << "Shell: " << this->Shell << "\n";
   os << indent << "KeepInterior: " << this->KeepInterior << "\n";
   os << indent << "ShellValue: " << this->ShellValue << "\n";

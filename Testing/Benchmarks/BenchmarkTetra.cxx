@@ -8,7 +8,7 @@
 //   Shell/MODEL        shells by 26 neighbours
 //   Bits/MODEL         one variant that stays on the GPU
 //   First/MODEL        one variant of a mesh that was not there before
-//   Layers/MODEL, Slices/MODEL   batches by the two ways of the Raster backend
+//   Columns/MODEL, Layers/MODEL, Slices/MODEL   batches by the ways of the Raster backend
 //   Stencil/MODEL      each variant's mesh, made on the CPU, by vtkPolyDataToImageStencil and
 //                      vtkImageStencilToImage, unsigned char
 
@@ -159,6 +159,7 @@ int main(int argc, char* argv[])
     AddRows("Shell/" + name, Shell, mesh, sizes);
     AddRows("Bits/" + name, Bits, mesh, sizes);
     AddRows("First/" + name, First, mesh, sizes);
+    AddRows("Columns/" + name, Raster<Voxelizer::RASTER_COLUMNS>, mesh, sizes, 1);
     AddRows("Layers/" + name, Raster<Voxelizer::RASTER_LAYERS>, mesh, sizes, 1);
     AddRows("Slices/" + name, Raster<Voxelizer::RASTER_SLICES>, mesh, sizes, 1);
     AddRows("Stencil/" + name, Stencil, mesh, sizes, 3);
