@@ -444,24 +444,18 @@ vtkDataObject* vtkTetraCoveringVoxelizer::UpdateInput()
   return this->GetInputDataObject(0, 0);
 }
 
-bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
-  vtkTypeInt64 first, int count, vtkUnsignedCharArray* array)
+/// Where a variant of a batch is on the GPU.
+struct vtkTetraCoveringVoxelizer::Slot
 {
-  const std::int64_t voxels = grid.GetNumberOfVoxels();
-  array->SetName(vtkSlicemapImage::ArrayName);
-  array->SetNumberOfComponents(1);
-  array->SetNumberOfTuples(voxels * count);
-  if (array->GetNumberOfTuples() != voxels * count)
-  {
-    throw std::runtime_error("There is no memory for the batch. Use smaller ones.");
-  }
+  vtkNew<vtkSlicemap> Solid;
+  vtkNew<vtkSlicemap> Shell;
+};
+
+bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
+  vtkTypeInt64 first, int count, const BatchReader& read)
+{
   vtkVoxelMesh& closed = this->PrepareMesh(mesh);
   // One variant is read back while the GPU is busy with the next one.
-  struct Slot
-  {
-    vtkNew<vtkSlicemap> Solid;
-    vtkNew<vtkSlicemap> Shell;
-  };
   std::array<Slot, 2> slots;
   for (const Slot& slot : slots)
   {
@@ -479,25 +473,9 @@ bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid
     }
     return finished;
   };
-  const auto read = [&](int i)
-  {
-    const Slot& slot = slots[i % 2];
-    unsigned char* out = array->GetPointer(i * voxels);
-    const bool labels = this->Shell != SHELL_NONE && this->KeepInterior;
-    const bool shellAlone = this->Shell != SHELL_NONE && !this->KeepInterior;
-    vtkSlicemap* set = shellAlone ? slot.Shell : slot.Solid;
-    bool good = set->Read([&](const std::uint32_t* words)
-      { vtkSlicemapImage::Expand(words, grid, this->GetForegroundValue(), out); });
-    if (good && labels)
-    {
-      good = slot.Shell->Read([&](const std::uint32_t* words)
-        { vtkSlicemapImage::Overlay(words, grid, this->ShellValue, out); });
-    }
-    return good;
-  };
   for (int i = 0; i <= count; ++i)
   {
-    if ((i < count && !fill(i)) || (i > 0 && !read(i - 1)))
+    if ((i < count && !fill(i)) || (i > 0 && !read(i - 1, slots[(i - 1) % 2])))
     {
       return false;
     }
@@ -505,14 +483,9 @@ bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid
   return true;
 }
 
-bool vtkTetraCoveringVoxelizer::VoxelizeBatch(
-  vtkTypeInt64 first, int count, vtkUnsignedCharArray* array)
+bool vtkTetraCoveringVoxelizer::RunBatch(vtkTypeInt64 first, int count, std::int64_t bytesPerVoxel,
+  const std::function<BatchReader(const vtkVoxelGrid& grid)>& begin)
 {
-  if (!array)
-  {
-    vtkErrorMacro("There is no array for the voxels of the batch.");
-    return false;
-  }
   vtkDataObject* input = this->UpdateInput();
   bool finished = false;
   vtkVoxelGrid grid;
@@ -524,24 +497,77 @@ bool vtkTetraCoveringVoxelizer::VoxelizeBatch(
         std::to_string(first) + " on can't be made: ask for one at least, from 0 on at least.");
     }
     grid = whole;
-    this->CheckBytes(grid.GetNumberOfVoxels() * count,
+    this->CheckBytes(grid.GetNumberOfVoxels() * bytesPerVoxel * count,
       "batch of " + std::to_string(count) + " variants", "Use fewer voxels, or smaller batches.");
     return true;
   };
   const auto work = [&](vtkVoxelMesh& mesh)
   {
-    finished = this->FillBatch(mesh, grid, first, count, array);
+    finished = this->FillBatch(mesh, grid, first, count, begin(grid));
     return finished;
   };
   if (input)
   {
     this->RunOnMesh(input, prepare, work);
   }
+  return finished;
+}
+
+bool vtkTetraCoveringVoxelizer::VoxelizeBatch(
+  vtkTypeInt64 first, int count, vtkUnsignedCharArray* array)
+{
+  if (!array)
+  {
+    vtkErrorMacro("There is no array for the voxels of the batch.");
+    return false;
+  }
+  const bool hasShell = this->Shell != SHELL_NONE;
+  const auto begin = [&](const vtkVoxelGrid& grid) -> BatchReader
+  {
+    const std::int64_t voxels = grid.GetNumberOfVoxels();
+    array->SetName(vtkSlicemapImage::ArrayName);
+    array->SetNumberOfComponents(1);
+    array->SetNumberOfTuples(voxels * count);
+    if (array->GetNumberOfTuples() != voxels * count)
+    {
+      throw std::runtime_error("There is no memory for the batch. Use smaller ones.");
+    }
+    return [=](int i, const Slot& slot)
+    {
+      unsigned char* out = array->GetPointer(i * voxels);
+      vtkSlicemap* set = hasShell && !this->KeepInterior ? slot.Shell : slot.Solid;
+      bool good = set->Read([&](const std::uint32_t* words)
+        { vtkSlicemapImage::Expand(words, grid, this->GetForegroundValue(), out); });
+      if (good && hasShell && this->KeepInterior)
+      {
+        good = slot.Shell->Read([&](const std::uint32_t* words)
+          { vtkSlicemapImage::Overlay(words, grid, this->ShellValue, out); });
+      }
+      return good;
+    };
+  };
+  const bool finished = this->RunBatch(first, count, 1, begin);
   if (!finished)
   {
     array->Initialize();
   }
   return finished;
+}
+
+bool vtkTetraCoveringVoxelizer::VisitBatch(vtkTypeInt64 first, int count,
+  const std::function<bool(int i, const vtkVoxelGrid& grid, const std::uint32_t* words)>& visit)
+{
+  const auto begin = [&](const vtkVoxelGrid& grid) -> BatchReader
+  {
+    return [=](int i, const Slot& slot)
+    {
+      vtkSlicemap* set = this->Shell == SHELL_NONE ? slot.Solid : slot.Shell;
+      bool goesOn = false;
+      return set->Read([&](const std::uint32_t* words) { goesOn = visit(i, grid, words); }) &&
+        goesOn;
+    };
+  };
+  return this->RunBatch(first, count, 0, begin);
 }
 
 bool vtkTetraCoveringVoxelizer::RunWithModel(

@@ -24,8 +24,8 @@
  * done.
  *
  * The Raster backend does the same with fragments in place of invocations, in pairs of floats, 48
- * bits together (RasterMethod Columns). Its voxels are those of Compute, bit for bit, unless a voxel
- * centre is within some 1e-11 voxel of the surface: there ties decide, which the two may see
+ * bits together (RasterMethod Columns). Its voxels are those of Compute, bit for bit, unless a
+ * voxel centre is within some 1e-11 voxel of the surface: there ties decide, which the two may see
  * differently where edges and corners run through voxel centres. Random variants have none.
  *
  * RasterMethod Slices and Layers are the paper's ways: tetrahedra are cut by the slices of voxels,
@@ -262,6 +262,14 @@ public:
   bool VoxelizeBatch(vtkTypeInt64 first, int count, vtkUnsignedCharArray* array);
 
   /**
+   * The same variants as bits, which are not expanded to bytes: calls `visit` with the number of
+   * each, counted from `first`, its grid and its words, in the layout of vtkSlicemap. Shells come
+   * without the interior. False after one error, or when `visit` answers false.
+   */
+  bool VisitBatch(vtkTypeInt64 first, int count,
+    const std::function<bool(int i, const vtkVoxelGrid& grid, const std::uint32_t* words)>& visit);
+
+  /**
    * Where a variant goes, in world coordinates, after the displacement of its points. Updates the
    * input. False after one error.
    */
@@ -310,8 +318,12 @@ private:
   bool FillSolid(vtkTypeInt64 variant, vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
     vtkSlicemap* solid, const std::function<bool(double)>& progress);
   void FindShell(vtkSlicemap* solid, vtkSlicemap* shell);
+  struct Slot;
+  using BatchReader = std::function<bool(int i, const Slot& slot)>;
   bool FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkTypeInt64 first, int count,
-    vtkUnsignedCharArray* array);
+    const BatchReader& read);
+  bool RunBatch(vtkTypeInt64 first, int count, std::int64_t bytesPerVoxel,
+    const std::function<BatchReader(const vtkVoxelGrid& grid)>& begin);
   vtkDataObject* UpdateInput();
   bool RunWithModel(const std::function<void(const vtkTetraModel& model)>& work);
 
