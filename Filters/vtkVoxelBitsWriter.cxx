@@ -125,10 +125,6 @@ bool vtkVoxelBitsWriter::WriteBatch(
       {
         file.Commit();
       }
-      else
-      {
-        this->SetErrorCode(vtkErrorCode::UserError);
-      }
       return finished;
     });
 }

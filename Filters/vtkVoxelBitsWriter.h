@@ -92,7 +92,7 @@ public:
   /**
    * Writes the variants `first` to `first` + `count` - 1 of the voxelizer's model, one at a time,
    * so that the batch takes no memory; shells come without the interior. The input plays no role.
-   * False after one error, the voxelizer's or this one's.
+   * False after one error: this one's, which has an error code, or the voxelizer's.
    */
   bool WriteBatch(vtkTetraCoveringVoxelizer* voxelizer, vtkTypeInt64 first, int count);
 

@@ -7,28 +7,25 @@
 #include "Messages.h"
 #include "Terminal.h"
 
-#include "vtkErrorCode.h"
+#include "vtkBinvoxReader.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkVoxelBitsReader.h"
 
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
 #include "vtkVDBVoxelReader.h"
+#endif
+
+#include <algorithm>
+#include <iterator>
 
 namespace
 {
-constexpr char Extension[] = ".vdb";
-}
-
-bool VoxelInput::IsVoxels(const std::string& file)
-{
-  return FileNames::GetExtension(file) == Extension;
-}
-
-vtkSmartPointer<vtkImageData> VoxelInput::Read(
+template <typename Reader>
+vtkSmartPointer<vtkImageData> ReadBy(
   const std::string& file, Messages& messages, Terminal& terminal)
 {
-  InputFile::CheckReadable(file);
-  vtkNew<vtkVDBVoxelReader> reader;
+  vtkNew<Reader> reader;
   reader->SetFileName(file.c_str());
   terminal.Watch(reader, "reading");
   reader->Update();
@@ -40,26 +37,48 @@ vtkSmartPointer<vtkImageData> VoxelInput::Read(
   return reader->GetOutput();
 }
 
-std::string VoxelInput::GetExtensions()
+struct Format
 {
-  return Extension;
-}
+  const char* Extension;
+  vtkSmartPointer<vtkImageData> (*Read)(const std::string&, Messages&, Terminal&);
+};
 
-#else
-
-bool VoxelInput::IsVoxels(const std::string&)
-{
-  return false;
-}
-
-vtkSmartPointer<vtkImageData> VoxelInput::Read(const std::string& file, Messages&, Terminal&)
-{
-  InputFile::Refuse(file, "this program was built without a reader for it");
-}
-
-std::string VoxelInput::GetExtensions()
-{
-  return {};
-}
-
+constexpr Format Formats[] = {
+#ifdef VTKVOXELIZATION_HAS_OPENVDB
+  { ".vdb", ReadBy<vtkVDBVoxelReader> },
 #endif
+  { ".binvox", ReadBy<vtkBinvoxReader> },
+  { ".bits", ReadBy<vtkVoxelBitsReader> },
+};
+
+/// Null where the file is not one of voxels.
+const Format* FindFormat(const std::string& file)
+{
+  const std::string extension = FileNames::GetExtension(file);
+  const auto* const found = std::find_if(std::begin(Formats), std::end(Formats),
+    [&](const Format& format) { return extension == format.Extension; });
+  return found == std::end(Formats) ? nullptr : found;
+}
+}
+
+bool VoxelInput::IsVoxels(const std::string& file)
+{
+  return FindFormat(file) != nullptr;
+}
+
+vtkSmartPointer<vtkImageData> VoxelInput::Read(
+  const std::string& file, Messages& messages, Terminal& terminal)
+{
+  InputFile::CheckReadable(file);
+  return FindFormat(file)->Read(file, messages, terminal);
+}
+
+std::string VoxelInput::GetExtensions()
+{
+  std::string extensions;
+  for (const Format& format : Formats)
+  {
+    extensions += (extensions.empty() ? "" : ", ") + std::string(format.Extension);
+  }
+  return extensions;
+}
