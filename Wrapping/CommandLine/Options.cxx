@@ -220,8 +220,8 @@ const std::vector<Group>& GetGroups()
             o.Shell = a.AsChoice({ { "6", 6 }, { "18", 18 }, { "26", 26 } });
           } },
         { "--variants", "N",
-          "N variants of the mesh at once: in one .bits file, or in a file each, when OUTPUT\n"
-          "has a number like %04d in its name, which becomes that of the variant",
+          "N variants of the mesh at once: in one .bits file, or in a file each, when\n"
+          "OUTPUT has a number like %04d in its name, which becomes that of the variant",
           [](Options& o, const Argument& a) { o.Variants = a.AsInteger(1); } },
         { "--first", "N", "number of the first variant, or of the only one (default: 0)",
           [](Options& o, const Argument& a) { o.FirstVariant = a.AsInteger(0); } },
@@ -495,15 +495,16 @@ std::string Options::GetHelp()
          "                    or a volume, a mask or a label map:\n"
          "                    "
       << ImageReader::GetImageExtensions() << "\n"
-      << "                    or voxels, to be written as they are: " << VoxelInput::GetExtensions()
-      << "\n"
-         "  OUTPUT            the voxels: "
-      << VoxelOutput::GetExtensions()
+      << (VoxelInput::GetExtensions().empty()
+             ? std::string()
+             : "                    or voxels, to be written as they are: " +
+               VoxelInput::GetExtensions() + "\n")
+      << "  OUTPUT            the voxels: " << VoxelOutput::GetExtensions()
       << "\n"
          "                    .vti holds all there is, .mha, .mhd, .binvox and .bits the set\n"
-         "                    voxels alone, the last ones a bit each; with --method surface also "
-         ".vtp, a list of the voxels, and\n"
-         "                    .htg, an octree, for grids too large to be kept as images\n";
+         "                    voxels alone, the last ones a bit each; with --method surface also\n"
+         "                    .vtp, a list of the voxels, and .htg, an octree, for grids too\n"
+         "                    large to be kept as images\n";
   for (const Group& group : GetGroups())
   {
     out << "\n" << group.Title << ":\n";
@@ -526,7 +527,7 @@ std::string Options::GetHelp()
        "  vtkvoxelize ct.mha bone.vti --iso 300 --keep-largest --fill-holes\n"
        "  vtkvoxelize labels.nrrd liver.mha --label 6 --subtract tumour.stl\n"
        "  vtkvoxelize --method tetra --resolution 64 --rotate any --scale 0.5,1.5 --seed 1 \n"
-       "    --variants 1000 --repair chair.off chair.bits\n"
+       "    --variants 1000 --repair chair.obj chair.bits\n"
        "  vtkvoxelize --method tetra --resolution 32 --rotate z --variants 20 car.obj "
        "car_%02d.binvox\n"
        "\nExit codes:\n"

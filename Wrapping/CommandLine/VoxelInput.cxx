@@ -7,25 +7,28 @@
 #include "Messages.h"
 #include "Terminal.h"
 
-#include "vtkBinvoxReader.h"
+#include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkVoxelBitsReader.h"
 
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
 #include "vtkVDBVoxelReader.h"
-#endif
-
-#include <algorithm>
-#include <iterator>
 
 namespace
 {
-template <typename Reader>
-vtkSmartPointer<vtkImageData> ReadBy(
+constexpr char Extension[] = ".vdb";
+}
+
+bool VoxelInput::IsVoxels(const std::string& file)
+{
+  return FileNames::GetExtension(file) == Extension;
+}
+
+vtkSmartPointer<vtkImageData> VoxelInput::Read(
   const std::string& file, Messages& messages, Terminal& terminal)
 {
-  vtkNew<Reader> reader;
+  InputFile::CheckReadable(file);
+  vtkNew<vtkVDBVoxelReader> reader;
   reader->SetFileName(file.c_str());
   terminal.Watch(reader, "reading");
   reader->Update();
@@ -37,48 +40,26 @@ vtkSmartPointer<vtkImageData> ReadBy(
   return reader->GetOutput();
 }
 
-struct Format
+std::string VoxelInput::GetExtensions()
 {
-  const char* Extension;
-  vtkSmartPointer<vtkImageData> (*Read)(const std::string&, Messages&, Terminal&);
-};
-
-constexpr Format Formats[] = {
-#ifdef VTKVOXELIZATION_HAS_OPENVDB
-  { ".vdb", ReadBy<vtkVDBVoxelReader> },
-#endif
-  { ".binvox", ReadBy<vtkBinvoxReader> },
-  { ".bits", ReadBy<vtkVoxelBitsReader> },
-};
-
-/// Null where the file is not one of voxels.
-const Format* FindFormat(const std::string& file)
-{
-  const std::string extension = FileNames::GetExtension(file);
-  const auto* const found = std::find_if(std::begin(Formats), std::end(Formats),
-    [&](const Format& format) { return extension == format.Extension; });
-  return found == std::end(Formats) ? nullptr : found;
-}
+  return Extension;
 }
 
-bool VoxelInput::IsVoxels(const std::string& file)
+#else
+
+bool VoxelInput::IsVoxels(const std::string&)
 {
-  return FindFormat(file) != nullptr;
+  return false;
 }
 
-vtkSmartPointer<vtkImageData> VoxelInput::Read(
-  const std::string& file, Messages& messages, Terminal& terminal)
+vtkSmartPointer<vtkImageData> VoxelInput::Read(const std::string& file, Messages&, Terminal&)
 {
-  InputFile::CheckReadable(file);
-  return FindFormat(file)->Read(file, messages, terminal);
+  InputFile::Refuse(file, "this program was built without a reader for it");
 }
 
 std::string VoxelInput::GetExtensions()
 {
-  std::string extensions;
-  for (const Format& format : Formats)
-  {
-    extensions += (extensions.empty() ? "" : ", ") + std::string(format.Extension);
-  }
-  return extensions;
+  return {};
 }
+
+#endif

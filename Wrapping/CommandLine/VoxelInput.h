@@ -24,7 +24,7 @@ bool IsVoxels(const std::string& file);
 /// Throws Failure with ExitCode::Input when the file can't be read.
 vtkSmartPointer<vtkImageData> Read(const std::string& file, Messages& messages, Terminal& terminal);
 
-/// What can be read, for messages.
+/// What can be read, for messages; empty when nothing can.
 std::string GetExtensions();
 }
 
