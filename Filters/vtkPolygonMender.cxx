@@ -214,6 +214,7 @@ std::vector<vtkPolygonMender::Region> vtkPolygonMender::FindRegions()
     }
   }
   std::vector<Region> sorted;
+  sorted.reserve(regions.size());
   for (auto& [representative, region] : regions)
   {
     sorted.push_back(std::move(region));
