@@ -21,7 +21,8 @@ struct Options
   {
     Solid,
     Surface,
-    Depth
+    Depth,
+    Tetra
   };
 
   /// What is done to the voxels of INPUT, and to what the steps before have made of them.
@@ -90,6 +91,25 @@ struct Options
   std::optional<std::string> Texture;
   ///@}
 
+  /// Whether meshes are mended before.
+  bool Repair = false;
+
+  ///@{
+  /**
+   * Of --method tetra: neighbours of a shell, and what variants there are. The axis about which
+   * they are rotated is x, y or z, or any.
+   */
+  std::optional<int> Shell;
+  std::optional<int> Variants;
+  std::optional<int> FirstVariant;
+  std::optional<int> Seed;
+  std::optional<int> RotationAxis;
+  static constexpr int AnyAxis = 3;
+  std::optional<std::array<double, 2>> ScaleRange;
+  std::optional<double> Displacement;
+  bool StaysInPlace = false;
+  ///@}
+
   std::vector<Step> Steps;
 
   ///@{
@@ -127,6 +147,12 @@ struct Options
   static Options Parse(const std::vector<std::string>& words);
 
   static std::string GetHelp();
+
+  /// Whether the mesh is turned, scaled or displaced at random.
+  bool HasRandomVariants() const
+  {
+    return this->RotationAxis || this->ScaleRange || this->Displacement;
+  }
 
   /// Whether INPUT is a volume, and not a mesh.
   bool HasVolume() const;

@@ -18,8 +18,10 @@
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkTetraCoveringVoxelizer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVoxelAlgorithm.h"
+#include "vtkVoxelBitsWriter.h"
 #include "vtkVoxelSlabWriter.h"
 #include "vtkXMLHyperTreeGridWriter.h"
 #include "vtkXMLImageDataWriter.h"
@@ -114,6 +116,7 @@ struct Format
 };
 
 constexpr char BinvoxExtension[] = ".binvox";
+constexpr char BitsExtension[] = ".bits";
 constexpr char VDBExtension[] = ".vdb";
 
 constexpr Format Formats[] = {
@@ -121,6 +124,7 @@ constexpr Format Formats[] = {
   { ".mha", VoxelOutput::Kind::Image, nullptr },
   { ".mhd", VoxelOutput::Kind::Image, nullptr },
   { BinvoxExtension, VoxelOutput::Kind::Image, nullptr },
+  { BitsExtension, VoxelOutput::Kind::Image, nullptr },
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
   { VDBExtension, VoxelOutput::Kind::Image, nullptr },
 #endif
@@ -218,16 +222,13 @@ void VoxelOutput::Refuse(const std::string& why) const
   OutputFile::Refuse(this->Target, why);
 }
 
-template <typename Writer>
-void VoxelOutput::WriteInPlace(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
+template <typename Writer, typename Work>
+std::string VoxelOutput::RunWriter(Writer* writer, Messages& messages, const Work& work) const
 {
-  vtkNew<Writer> writer;
   writer->SetFileName(this->File.c_str());
   writer->InPlaceOn();
-  writer->SetInputDataObject(voxels);
-  terminal.Watch(writer, "writing");
   errno = 0;
-  writer->Write();
+  work();
   const int error = errno;
   const std::string reason = messages.TakeReason();
   const auto code = writer->GetErrorCode();
@@ -238,6 +239,30 @@ void VoxelOutput::WriteInPlace(vtkDataObject* voxels, Messages& messages, Termin
   if (code != vtkErrorCode::NoError)
   {
     this->Refuse(reason);
+  }
+  return reason;
+}
+
+template <typename Writer>
+void VoxelOutput::WriteInPlace(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
+{
+  vtkNew<Writer> writer;
+  writer->SetInputDataObject(voxels);
+  terminal.Watch(writer, "writing");
+  this->RunWriter(writer.Get(), messages, [&] { writer->Write(); });
+}
+
+void VoxelOutput::WriteBatch(vtkTetraCoveringVoxelizer* voxelizer, vtkTypeInt64 first, int count,
+  Messages& messages, Terminal& terminal) const
+{
+  vtkNew<vtkVoxelBitsWriter> writer;
+  terminal.Watch(voxelizer, "voxelizing");
+  bool finished = false;
+  const std::string reason = this->RunWriter(
+    writer.Get(), messages, [&] { finished = writer->WriteBatch(voxelizer, first, count); });
+  if (!finished)
+  {
+    throw Failure(ExitCode::Voxelization, reason);
   }
 }
 
@@ -250,6 +275,10 @@ void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& ter
   else if (this->Extension == BinvoxExtension)
   {
     this->WriteInPlace<vtkBinvoxWriter>(voxels, messages, terminal);
+  }
+  else if (this->Extension == BitsExtension)
+  {
+    this->WriteInPlace<vtkVoxelBitsWriter>(voxels, messages, terminal);
   }
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
   else if (this->Extension == VDBExtension)
@@ -377,7 +406,12 @@ bool VoxelOutput::HasAttributes(const std::string& target)
 bool VoxelOutput::TakesSlicemap(const std::string& target)
 {
   const std::string extension = FileNames::GetExtension(target);
-  return extension == BinvoxExtension || extension == VDBExtension;
+  return extension == BinvoxExtension || extension == BitsExtension || extension == VDBExtension;
+}
+
+bool VoxelOutput::TakesVariants(const std::string& target)
+{
+  return FileNames::GetExtension(target) == BitsExtension;
 }
 
 bool VoxelOutput::TakesSlabs(const std::string& target)

@@ -8,6 +8,8 @@
 #ifndef VoxelOutput_h
 #define VoxelOutput_h
 
+#include "vtkType.h"
+
 #include <cstdint>
 #include <string>
 
@@ -17,12 +19,13 @@ class StagedFiles;
 class Terminal;
 class vtkDataObject;
 class vtkImageData;
+class vtkTetraCoveringVoxelizer;
 class vtkVoxelAlgorithm;
 
 /**
  * The file, or for .mhd two files, that the voxels go to: those of VTK's XML by its writers,
- * .binvox and .vdb by the module's; MetaImage here, since VTK's writer leaves the direction matrix
- * out, rounds the spacing and tells of no error.
+ * .binvox, .bits and .vdb by the module's; MetaImage here, since VTK's writer leaves the direction
+ * matrix out, rounds the spacing and tells of no error.
  */
 class VoxelOutput
 {
@@ -55,6 +58,13 @@ public:
   std::int64_t WriteSlabs(vtkVoxelAlgorithm* voxels, const Options& options, Messages& messages,
     Terminal& terminal) const;
 
+  /**
+   * Writes all variants that the options of the voxelizer stand for, from the given one on, where
+   * the target takes variants. Throws Failure.
+   */
+  void WriteBatch(vtkTetraCoveringVoxelizer* voxelizer, vtkTypeInt64 first, int count,
+    Messages& messages, Terminal& terminal) const;
+
   /// What a file of this name holds; an image where the extension is not known.
   static Kind GetKind(const std::string& target);
 
@@ -78,6 +88,9 @@ public:
   static std::string GetExtensionsOfSlabs();
   ///@}
 
+  /// Whether a file of this name may hold several variants of a model.
+  static bool TakesVariants(const std::string& target);
+
   /// What can be written, for messages: ".vti, .mha ...".
   static std::string GetExtensions();
 
@@ -85,6 +98,8 @@ private:
   void WriteXML(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
   template <typename Writer>
   void WriteInPlace(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const;
+  template <typename Writer, typename Work>
+  std::string RunWriter(Writer* writer, Messages& messages, const Work& work) const;
   void WriteMetaImage(vtkImageData* image) const;
   [[noreturn]] void Refuse(const std::string& why) const;
 

@@ -16,9 +16,12 @@
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkVoxelFilter.h"
 #include "vtkVoxelGrid.h"
+#include "vtkVoxelMeshRepair.h"
 #include "vtkVoxelizer.h"
 
 #include <algorithm>
@@ -106,11 +109,13 @@ VoxelPipeline::~VoxelPipeline() = default;
 
 void VoxelPipeline::Read()
 {
-  this->Sources.front().Maker->SetInputDataObject(ReadInput(this->Asked, this->Said, this->Shown));
+  this->Sources.front().Maker->SetInputDataObject(
+    this->Mend(ReadInput(this->Asked, this->Said, this->Shown), this->Asked.Input));
   for (const Options::Step& step : this->Asked.Steps)
   {
-    this->StepObjects.push_back(
-      step.File.empty() ? nullptr : ReadStepFile(step.File, this->Said, this->Shown));
+    this->StepObjects.push_back(step.File.empty()
+        ? nullptr
+        : this->Mend(ReadStepFile(step.File, this->Said, this->Shown), step.File));
   }
   this->FitGrid();
   this->Connect();
@@ -119,6 +124,24 @@ void VoxelPipeline::Read()
     this->Asked.Picture || this->Asked.Texture || !this->Asked.Attributes.empty();
   const bool takesBits = this->Asked.MemoryLimit || VoxelOutput::TakesSlicemap(this->Asked.Output);
   this->GetResult()->SetHostOutput(hasArrays || !takesBits);
+}
+
+vtkSmartPointer<vtkDataObject> VoxelPipeline::Mend(vtkDataObject* object, const std::string& file)
+{
+  if (!this->Asked.Repair || vtkImageData::SafeDownCast(object))
+  {
+    return object;
+  }
+  vtkNew<vtkVoxelMeshRepair> repair;
+  repair->SetInputDataObject(object);
+  repair->Update();
+  RefuseErrors(this->Said);
+  this->Shown.PrintNote(file + ": " + repair->GetSummary());
+  if (repair->GetOutput()->GetNumberOfPolys() == 0)
+  {
+    InputFile::Refuse(file, "all its polygons are degenerate");
+  }
+  return repair->GetOutput();
 }
 
 void VoxelPipeline::FitGrid()

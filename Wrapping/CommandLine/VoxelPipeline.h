@@ -68,6 +68,7 @@ public:
   vtkSmartPointer<vtkImageData> GetGrid() const;
 
 private:
+  vtkSmartPointer<vtkDataObject> Mend(vtkDataObject* object, const std::string& file);
   void FitGrid();
   void Connect();
   vtkVoxelizer* AddSource(vtkDataObject* mesh, const std::string& file);

@@ -16,6 +16,7 @@
 
 #include "vtkImageData.h"
 #include "vtkPolyData.h"
+#include "vtkTetraCoveringVoxelizer.h"
 #include "vtkVersion.h"
 #include "vtkVoxelAlgorithm.h"
 
@@ -93,8 +94,62 @@ void Convert(const Options& options, Terminal& terminal)
   terminal.ClearBar();
 }
 
+/// A file for each variant, or one for all.
+void RunVariants(const Options& options, Terminal& terminal)
+{
+  const vtkTypeInt64 first = options.FirstVariant.value_or(0);
+  const int count = *options.Variants;
+  const auto number = FileNames::FindNumber(options.Output);
+  const auto nameOf = [&](int i) { return number ? (*number)(first + i) : options.Output; };
+  {
+    // Fails before there is any work, if it must.
+    StagedFiles files;
+    const VoxelOutput output(nameOf(0), files);
+  }
+  Messages messages;
+  VoxelPipeline pipeline(options, messages, terminal);
+  Report report;
+  report.Time("reading", [&] { pipeline.Read(); });
+  auto* voxelizer = vtkTetraCoveringVoxelizer::SafeDownCast(pipeline.GetSources().front().Maker);
+  const auto kind = VoxelOutput::GetKind(options.Output);
+  const auto writeEach = [&]
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      StagedFiles files;
+      const VoxelOutput output(nameOf(i), files);
+      voxelizer->SetVariant(first + i);
+      pipeline.Run(kind);
+      output.Write(
+        pipeline.GetResult()->GetOutputDataObject(static_cast<int>(kind)), messages, terminal);
+      files.Commit();
+    }
+  };
+  const auto writeAll = [&]
+  {
+    StagedFiles files;
+    const VoxelOutput output(options.Output, files);
+    pipeline.Run(kind);
+    output.WriteBatch(voxelizer, first, count, messages, terminal);
+    files.Commit();
+  };
+  report.Time("variants", [&] { number ? writeEach() : writeAll(); });
+  terminal.ClearBar();
+  if (options.Info)
+  {
+    report.Describe(pipeline);
+    report.Print();
+  }
+}
+
 void Run(const Options& options, Terminal& terminal)
 {
+  if (options.Variants)
+  {
+    RunVariants(options, terminal);
+    return;
+  }
+
   if (VoxelInput::IsVoxels(options.Input))
   {
     Convert(options, terminal);
