@@ -11,6 +11,7 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
+#include "vtkDepthBlocksGLSL.h"
 #include "vtkDepthCarveGLSL.h"
 #include "vtkDepthDensityGLSL.h"
 #include "vtkDepthMeshVertexGLSL.h"
@@ -25,6 +26,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -38,9 +40,11 @@ constexpr unsigned int NearUnit = 0;
 constexpr unsigned int FarUnit = 1;
 constexpr unsigned int VoxelsUnit = 2;
 constexpr unsigned int RangesUnit = 0;
+constexpr unsigned int ColumnsUnit = 0;
 constexpr unsigned int MeshUnit = 0;
 constexpr int WordsPerQuad = 4;
 constexpr int VoxelsPerQuad = 4;
+constexpr int ColumnsPerWord = 32;
 
 /// As in vtkDepthDensity.glsl.
 constexpr float OneOfDensity = 16777216.0f;
@@ -63,18 +67,22 @@ std::array<int, 3> ToArray(const glm::ivec3& v)
   return { v.x, v.y, v.z };
 }
 
-/// An integer for each column of a view, from a fragment shader.
-Texture MakeColumns(const vtkVoxelGL::Context& context, const std::string& name,
-  const std::string& source, const Program::Defines& defines, const vtkDepthView& view,
+/// An image of integers, one, two or four a pixel, from a fragment shader.
+Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
+  const std::string& source, const Program::Defines& defines, GLenum format, const glm::ivec2& size,
   const std::function<void(Program&)>& bind)
 {
-  Texture columns(context, GL_TEXTURE_2D);
-  if (!columns.Allocate2D(GL_R32UI, view.Size.x, view.Size.y, GL_RED_INTEGER, GL_UNSIGNED_INT))
+  const GLenum components = format == GL_R32UI ? GL_RED_INTEGER
+    : format == GL_RG32UI                      ? GL_RG_INTEGER
+                                               : GL_RGBA_INTEGER;
+  Texture image(context, GL_TEXTURE_2D);
+  const bool allocated = image.Allocate2D(format, size.x, size.y, components, GL_UNSIGNED_INT);
+  if (!allocated)
   {
     throw std::runtime_error("OpenGL has no memory left for columns of voxels. Use fewer voxels.");
   }
   Framebuffer framebuffer(context);
-  framebuffer.Attach(GL_COLOR_ATTACHMENT0, columns);
+  framebuffer.Attach(GL_COLOR_ATTACHMENT0, image);
   framebuffer.SetDrawBuffers(1);
   vtkVoxelGL::VertexArray vertices(context);
   vertices.Bind();
@@ -82,9 +90,9 @@ Texture MakeColumns(const vtkVoxelGL::Context& context, const std::string& name,
     { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } }, { GL_FRAGMENT_SHADER, { source } } });
   program.Use();
   bind(program);
-  glViewport(0, 0, view.Size.x, view.Size.y);
+  glViewport(0, 0, size.x, size.y);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  return columns;
+  return image;
 }
 
 /// Maps the points of a mesh to view coordinates; see vtkRasterMeshFetch.glsl.
@@ -108,8 +116,8 @@ void SetView(Program& program, const glm::dmat4& worldToView)
 struct vtkDepthBuffers::Columns
 {
   int Axis;
-  Texture Ranges;
-  Texture Shells; ///< may be missing
+  int Rows;     ///< of columns
+  Texture Ends; ///< of vtkDepthRanges.glsl, or of vtkDepthShells.glsl
 };
 
 void vtkDepthBuffers::Start(vtkVoxelGL::Context context)
@@ -178,6 +186,7 @@ void vtkDepthBuffers::Draw(const vtkVoxelMesh& mesh) const
   mesh.Bind(program, MeshUnit);
   vtkVoxelGL::VertexArray vertices(this->Context);
   vertices.Bind();
+  mesh.BindIndices();
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_DEPTH_CLAMP);
   for (const Pair& pair : this->Pairs)
@@ -190,7 +199,8 @@ void vtkDepthBuffers::Draw(const vtkVoxelMesh& mesh) const
     {
       pair.GetFramebuffer(side).Bind();
       program.Set("Side", side == Side::Near ? 1.0f : -1.0f);
-      glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.GetNumberOfTriangles()) * 3);
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.GetNumberOfTriangles()) * 3,
+        GL_UNSIGNED_INT, nullptr);
     }
   }
   glDisable(GL_DEPTH_CLAMP);
@@ -199,7 +209,8 @@ void vtkDepthBuffers::Draw(const vtkVoxelMesh& mesh) const
 
 Texture vtkDepthBuffers::MakeRanges(const Pair& pair) const
 {
-  return MakeColumns(this->Context, "vtkDepthRanges", vtkDepthRangesGLSL, {}, pair.View,
+  return MakeImage(this->Context, "vtkDepthRanges", vtkDepthRangesGLSL, {}, GL_R32UI,
+    pair.View.Size,
     [&](Program& program)
     {
       pair.NearDepth.Bind(NearUnit);
@@ -214,13 +225,26 @@ Texture vtkDepthBuffers::MakeRanges(const Pair& pair) const
 Texture vtkDepthBuffers::MakeShells(
   const Pair& pair, const Texture& ranges, Neighbours neighbours) const
 {
-  return MakeColumns(this->Context, "vtkDepthShells", vtkDepthShellsGLSL,
-    { { "NEIGHBOURS", std::to_string(static_cast<int>(neighbours)) } }, pair.View,
+  return MakeImage(this->Context, "vtkDepthShells", vtkDepthShellsGLSL,
+    { { "NEIGHBOURS", std::to_string(static_cast<int>(neighbours)) } }, GL_RG32UI, pair.View.Size,
     [&](Program& program)
     {
       ranges.Bind(RangesUnit);
       program.Set("Ranges", int(RangesUnit));
       program.Set("Size", ToArray(pair.View.Size));
+    });
+}
+
+Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, int first, int count) const
+{
+  return MakeImage(this->Context, "vtkDepthBlocks", vtkDepthBlocksGLSL, {}, GL_RGBA32UI,
+    { (count + ColumnsPerWord - 1) / ColumnsPerWord, columns.Rows },
+    [&](Program& program)
+    {
+      columns.Ends.Bind(ColumnsUnit);
+      program.Set("Columns", int(ColumnsUnit));
+      program.Set("First", first);
+      program.Set("Count", count);
     });
 }
 
@@ -237,10 +261,10 @@ void vtkDepthBuffers::FillSolid(vtkSlicemap* target, const glm::ivec3& first) co
   {
     if (pair.Axis != Oblique)
     {
-      columns.push_back({ pair.Axis, this->MakeRanges(pair), {} });
+      columns.push_back({ pair.Axis, pair.View.Size.y, this->MakeRanges(pair) });
     }
   }
-  this->Fill(target, first, columns);
+  this->Fill(target, first, columns, {});
   for (const Pair& pair : this->Pairs)
   {
     if (pair.Axis == Oblique)
@@ -262,11 +286,10 @@ void vtkDepthBuffers::FillSurface(
   std::vector<Columns> columns;
   for (const Pair& pair : this->Pairs)
   {
-    Columns column{ pair.Axis, this->MakeRanges(pair), {} };
-    column.Shells = this->MakeShells(pair, column.Ranges, neighbours);
-    columns.push_back(std::move(column));
+    columns.push_back(
+      { pair.Axis, pair.View.Size.y, this->MakeShells(pair, this->MakeRanges(pair), neighbours) });
   }
-  this->Fill(target, first, columns);
+  this->Fill(target, first, columns, { { "SHELLS", "1" } });
 }
 
 void vtkDepthBuffers::Carve(vtkSlicemap* target, const Pair& pair) const
@@ -398,24 +421,24 @@ std::vector<float> vtkDepthBuffers::ReadDepth(const Pair& pair, Side side) const
   return depths;
 }
 
-void vtkDepthBuffers::Fill(
-  vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns) const
+void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
+  const std::vector<Columns>& columns, Program::Defines defines) const
 {
-  Program::Defines defines;
+  const glm::ivec3 size = target->GetGrid().GetDimensions();
+  std::vector<Texture> blocks;
+  std::transform(columns.begin(), columns.end(), std::back_inserter(blocks),
+    [&](const Columns& c)
+    { return c.Axis == 0 ? Texture() : this->MakeBlocks(c, first.x, size.x); });
   for (const Columns& column : columns)
   {
     defines[std::string("HAS_") + AxisNames[column.Axis]] = "1";
-    if (column.Shells)
-    {
-      defines["SHELLS"] = "1";
-    }
   }
   const vtkSlicemapQuadKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
   kernel.Run(this->Context, target,
     [&](Program& program)
     {
       program.Set("First", ToArray(first));
-      program.Set("Size", ToArray(target->GetGrid().GetDimensions()));
+      program.Set("Size", ToArray(size));
       program.Set(
         "QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
       int unit = 0;
@@ -424,12 +447,12 @@ void vtkDepthBuffers::Fill(
         texture.Bind(static_cast<unsigned int>(unit));
         program.Set(name.c_str(), unit++);
       };
-      for (const Columns& column : columns)
+      for (std::size_t i = 0; i < columns.size(); ++i)
       {
-        set(column.Ranges, std::string("Ranges") + AxisNames[column.Axis]);
-        if (column.Shells)
+        set(columns[i].Ends, std::string("Columns") + AxisNames[columns[i].Axis]);
+        if (blocks[i])
         {
-          set(column.Shells, std::string("Shells") + AxisNames[column.Axis]);
+          set(blocks[i], std::string("Blocks") + AxisNames[columns[i].Axis]);
         }
       }
     });

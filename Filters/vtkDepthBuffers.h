@@ -85,11 +85,12 @@ private:
   vtkVoxelGL::Texture MakeRanges(const Pair& pair) const;
   vtkVoxelGL::Texture MakeShells(
     const Pair& pair, const vtkVoxelGL::Texture& ranges, Neighbours neighbours) const;
+  vtkVoxelGL::Texture MakeBlocks(const Columns& columns, int first, int count) const;
   bool HasObliquePairs() const;
   void Carve(vtkSlicemap* target, const Pair& pair) const;
   void KeepBoundary(vtkSlicemap* target, Neighbours neighbours) const;
-  void Fill(
-    vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns) const;
+  void Fill(vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns,
+    vtkVoxelGL::Program::Defines defines) const;
 
   vtkVoxelGL::Context Context;
   std::vector<Pair> Pairs;

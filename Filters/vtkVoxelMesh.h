@@ -70,6 +70,9 @@ public:
   /// vtkVoxelMeshFetch.glsl, or of its counterpart in single precision; the program must be in use.
   void Bind(vtkVoxelGL::Program& program, unsigned int unit) const;
 
+  /// Makes the point ids of the triangles the indices of the vertex array that is bound.
+  void BindIndices() const { this->Triangles.Bind(GL_ELEMENT_ARRAY_BUFFER); }
+
   /// Area of all triangles projected along each of the three axes of index coordinates, in squares
   /// of voxels; estimated from a fixed sample of the triangles.
   glm::dvec3 EstimateProjectedAreas(const glm::dmat4& worldToIndex) const;
