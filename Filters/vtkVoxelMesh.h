@@ -36,6 +36,21 @@ public:
     Exact ///< ear clipping by vtkTriangleFilter: the triangles cover just the polygon
   };
 
+  /// What an input consists of, and when that changed last: equal for inputs whose triangles are.
+  struct Identity
+  {
+    const void* Points;
+    const void* Polygons;
+    const void* Strips;
+    std::uint64_t Time;
+    bool operator==(const Identity& o) const
+    {
+      return this->Points == o.Points && this->Polygons == o.Polygons && this->Strips == o.Strips &&
+        this->Time == o.Time;
+    }
+  };
+  static std::vector<Identity> Identify(vtkDataObject* input);
+
   /// The polydata of the input: itself, or all leaves of a composite.
   static std::vector<vtkSmartPointer<vtkPolyData>> GetLeaves(vtkDataObject* input);
 
@@ -88,19 +103,6 @@ public:
   int GetNumberOfUploads() const { return this->NumberOfUploads; }
 
 private:
-  struct Identity
-  {
-    const void* Points;
-    const void* Polygons;
-    const void* Strips;
-    std::uint64_t Time;
-    bool operator==(const Identity& o) const
-    {
-      return this->Points == o.Points && this->Polygons == o.Polygons && this->Strips == o.Strips &&
-        this->Time == o.Time;
-    }
-  };
-
   void UploadPoints(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
   void UploadTriangles(
     const std::vector<vtkSmartPointer<vtkPolyData>>& leaves, bool expectTriangles);
