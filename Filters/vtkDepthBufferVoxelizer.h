@@ -25,12 +25,14 @@
  * half open rule of vtkSlicemapSolidVoxelizer holds along depth, and across it that of the driver.
  *
  * <b>Props</b> are drawn by VTK in the window of the context (RenderWindow) at the size of the
- * grid, and left as they were. A prop that other windows show gives its graphics resources there
- * back, and makes them anew when it is drawn there next; set RenderWindow to that window to avoid
- * it. A vtkVolume whose mapper blends iso-surfaces is seen as the level sets that its property
- * names, contoured on the CPU: such mappers write no depth, and what they give by RenderToImage are
- * the places of samples behind the surface. Cropping by its mapper is ignored. What clipping planes
- * cut open is open: look along axes that lie in the cut.
+ * grid, and left as they were. Their
+ * bounds are those that they tell; set ModelBounds where a shader moves them beyond. A prop that
+ * other windows show gives its graphics resources there back, and makes them anew when it is drawn
+ * there next; set RenderWindow to that window to avoid it. A vtkVolume whose mapper blends
+ * iso-surfaces is seen as the level sets that its property names, contoured on the CPU: such
+ * mappers write no depth, and what they give by RenderToImage are the places of samples behind the
+ * surface. Cropping by its mapper is ignored. What clipping planes cut open is open: look along
+ * axes that lie in the cut.
  *
  * <b>Grid.</b> That of vtkVoxelizer, where the bounds are those of the input and of all props.
  * Backend is of no consequence.
@@ -106,8 +108,9 @@ public:
    * every axis, and for such as a torus along its axis of symmetry (section 2.3 of the paper). This
    * is decided by counting the crossings of every column in the stencil while the near side is
    * drawn, the axes with the fewest pixels first, so that there are never more draws than without.
-   * What counts are the samples that voxels are made from, not the mesh; a mesh with holes may thus
-   * become a solid that three axes would not find.
+   * What counts are the samples that voxels are made from, not the mesh: a mesh with holes may thus
+   * become a solid that three axes would not find, and where columns run along faces, rounding may
+   * rule out an axis that would have done. Along x filling is fastest.
    *
    * It is for meshes on the input port alone: with props, with Density, which is better the more
    * axes there are, and where each of Axes hides something, all of Axes are used. UsedAxes are the

@@ -23,9 +23,9 @@ namespace
 {
 using Prop = vtkSmartPointer<vtkProp>;
 
-constexpr double Strength = 0.25;
+constexpr double Strength = 0.8;
 
-/// A sphere of radius 0.5 that bulges upwards, by code in the vertex shader.
+/// A sphere of radius 0.5 that bulges at its poles, by code in the vertex shader.
 Prop MakeDisplaced()
 {
   vtkNew<vtkSphereSource> sphere;
@@ -37,7 +37,7 @@ Prop MakeDisplaced()
   vtkShaderProperty* shaders = actor->GetShaderProperty();
   shaders->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true,
     "//VTK::PositionVC::Impl\n"
-    "  float bulge = 1.0 + strength * 2.0 * vertexMC.z;\n"
+    "  float bulge = 1.0 + strength * 4.0 * vertexMC.z * vertexMC.z;\n"
     "  gl_Position = MCDCMatrix * vec4(bulge * vertexMC.xyz, 1.0);\n",
     false);
   shaders->GetVertexCustomUniforms()->SetUniformf("strength", Strength);
@@ -46,8 +46,9 @@ Prop MakeDisplaced()
 
 double Distance(const Vector& p, double strength)
 {
-  const double r = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-  return r - 0.5 * (1.0 + strength * (r > 0.0 ? p[2] / r : 0.0));
+  const double square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+  const double bulge = square > 0.0 ? strength * p[2] * p[2] / square : 0.0;
+  return std::sqrt(square) - 0.5 * (1.0 + bulge);
 }
 }
 
@@ -56,7 +57,7 @@ int TestDepthDisplacement(int argc, char* argv[])
   const Prop prop = MakeDisplaced();
   const auto voxelizer = MakeVoxelizer(prop);
   // The prop's bounds don't know of the displacement.
-  voxelizer->SetModelBounds(-0.7, 0.7, -0.7, 0.7, -0.7, 0.7);
+  voxelizer->SetModelBounds(-0.7, 0.7, -0.7, 0.7, -0.95, 0.95);
   voxelizer->Update();
   bool ok = CheckSolid("displaced sphere", voxelizer->GetOutput(),
     [](const Vector& p) { return Distance(p, Strength); });
