@@ -382,8 +382,7 @@ int vtkVoxelizer::RequestData(
         return false;
       }
       this->CheckMemory(part);
-      this->Prepare(whole);
-      return true;
+      return this->Prepare(whole);
     },
     [&](vtkVoxelMesh& mesh)
     {

@@ -203,10 +203,10 @@ protected:
   virtual bool GetInputBounds(vtkDataObject* input, double bounds[6]);
 
   /**
-   * For what must happen before a run takes the context, such as rendering by VTK. Throws
-   * std::runtime_error.
+   * For what must happen before a run takes the context, such as rendering by VTK. Returns false
+   * when aborted. Throws std::runtime_error.
    */
-  virtual void Prepare(const vtkVoxelGrid& vtkNotUsed(whole)) {}
+  virtual bool Prepare(const vtkVoxelGrid& vtkNotUsed(whole)) { return true; }
 
   /**
    * Adds more arrays to the voxels of `grid`, which have been filled and read back, in the current

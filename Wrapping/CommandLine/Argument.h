@@ -28,6 +28,7 @@ public:
   }
 
   const std::string& GetOption() const { return this->Option; }
+  const std::string& GetText() const { return this->Text; }
 
   std::string AsFile() const;
   int AsInteger(int lowest, int highest = std::numeric_limits<int>::max()) const;

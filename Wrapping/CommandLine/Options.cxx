@@ -208,9 +208,14 @@ const std::vector<Group>& GetGroups()
       } },
     { "Between surfaces (--method depth)",
       {
-        { "--axes", "AXIS[,AXIS...]",
-          "x, y and z: the axes along which the mesh is looked at (default: x,y,z)",
-          [](Options& o, const Argument& a) { o.Axes = a.AsAxes(); } },
+        { "--axes", "AXIS[,AXIS...]|auto",
+          "x, y and z: the axes along which the mesh is looked at (default: x,y,z);\n"
+          "auto: one of them where that tells everything, as of convex meshes",
+          [](Options& o, const Argument& a)
+          {
+            o.AutomaticAxes = a.GetText() == "auto";
+            o.Axes = o.AutomaticAxes ? std::array{ true, true, true } : a.AsAxes();
+          } },
       } },
     { "Variants and shells (--method tetra)",
       {

@@ -82,6 +82,7 @@ struct Options
    * Axes along which --method depth looks.
    */
   std::optional<std::array<bool, 3>> Axes;
+  bool AutomaticAxes = false; ///< one of them where that does
 
   ///@{
   /**

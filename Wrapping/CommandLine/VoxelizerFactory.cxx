@@ -74,6 +74,7 @@ vtkSmartPointer<vtkVoxelizer> MakeDepth(const Options& options)
   {
     voxelizer->SetAxes((*options.Axes)[0], (*options.Axes)[1], (*options.Axes)[2]);
   }
+  voxelizer->SetAutomaticAxes(options.AutomaticAxes);
   return voxelizer;
 }
 
