@@ -39,12 +39,18 @@ class HomeProcess
 {
 public:
 #if defined(__unix__) || defined(__APPLE__)
-  bool IsHere() const { return getpid() == this->Id; }
+  bool IsHere() const
+  {
+    return getpid() == this->Id;
+  }
 
 private:
   pid_t Id = getpid();
 #else
-  bool IsHere() const { return true; }
+  bool IsHere() const
+  {
+    return true;
+  }
 #endif
 };
 

@@ -68,9 +68,20 @@ def _from_arrays(arrays):
     return mesh
 
 
-def _check(mesh):
+def _check_length_of_stl(file):
+    """VTK's reader takes what there is of a binary file."""
+    length = os.path.getsize(file)
+    with open(file, "rb") as stream:
+        head = stream.read(84)
+    if len(head) == 84 and head[:5].lower() != b"solid":
+        triangles = int.from_bytes(head[80:], "little")
+        if length < 84 + 50 * triangles:
+            raise MeshError(f"it ends too early: {length} bytes can't hold {triangles} triangles")
+
+
+def _fault(mesh):
     """What the voxelizer can't do with a mesh, or None."""
-    if mesh is None or mesh.GetNumberOfPolys() == 0:
+    if mesh.GetNumberOfPolys() == 0:
         return "it holds no polygons"
     if not np.isfinite(vtk_to_numpy(mesh.GetPoints().GetData())).all():
         return "it has points that are NaN or infinite"
@@ -80,12 +91,16 @@ def _check(mesh):
     return None
 
 
-def _only_polygons(mesh):
+def _usable(mesh):
+    """The polygons of a mesh and no more, those of its strips too. A MeshError says what is wrong with them."""
     if mesh.GetNumberOfStrips():
         triangles = vtkTriangleFilter()
         triangles.SetInputData(mesh)
         triangles.Update()
         mesh = triangles.GetOutput()
+    reason = _fault(mesh)
+    if reason:
+        raise MeshError(reason)
     polygons = vtkPolyData()
     polygons.SetPoints(mesh.GetPoints())
     polygons.SetPolys(mesh.GetPolys())
@@ -94,7 +109,10 @@ def _only_polygons(mesh):
 
 def _read_here(file):
     """The mesh, or a MeshError. VTK's readers do not survive everything."""
-    reader = _READERS[Path(file).suffix.lower()]()
+    suffix = Path(file).suffix.lower()
+    if suffix == ".stl":
+        _check_length_of_stl(file)
+    reader = _READERS[suffix]()
     reader.SetFileName(file)
     output = vtkStringOutputWindow()
     before = vtkOutputWindow.GetInstance()
@@ -108,11 +126,7 @@ def _read_here(file):
                 if line and not line.startswith(("ERROR: In", "Warning: In"))]
     if messages:
         raise MeshError(messages[0].rstrip("."))
-    mesh = reader.GetOutput()
-    reason = _check(mesh)
-    if reason:
-        raise MeshError(reason)
-    return _only_polygons(mesh)
+    return _usable(reader.GetOutput())
 
 
 def _serve():
@@ -213,10 +227,10 @@ class LabelledMesh:
     def __init__(self, mesh, label, name):
         if not isinstance(mesh, vtkPolyData):
             raise TypeError(f"{name} is a {type(mesh).__name__}; give a vtkPolyData")
-        reason = _check(mesh)
-        if reason:
-            raise MeshError(f"{name}: {reason}")
-        self.mesh = _only_polygons(mesh)
+        try:
+            self.mesh = _usable(mesh)
+        except MeshError as error:
+            raise MeshError(f"{name}: {error}") from None
         self.label = int(label)
         self.name = str(name)
 
