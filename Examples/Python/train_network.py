@@ -165,7 +165,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("mesh")
     parser.add_argument("picture")
-    parser.add_argument("--steps", type=int, default=300)
+    parser.add_argument("--steps", type=int, default=150)
     parser.add_argument("--workers", type=int, default=1)
     arguments = parser.parse_args()
 
@@ -179,7 +179,7 @@ def main():
     curve = [(0, accuracy(network, voxels, labels))]
 
     def validate(step):
-        if step % max(arguments.steps // 20, 1) == 0 or step == arguments.steps:
+        if step % max(arguments.steps // 15, 1) == 0 or step == arguments.steps:
             curve.append((step, accuracy(network, voxels, labels)))
             print(f"step {step}: {100 * curve[-1][1]:.1f} % of the held-out variants are told right", flush=True)
 

@@ -3,7 +3,7 @@
     feeding.py MESH.ply [STEPS]
 
 The network and the shapes are those of Examples/Python/train_network.py, on the CPU. Needs PyTorch, and the
-module on PYTHONPATH. The best of three rounds counts: the one whose steps took least.
+module on PYTHONPATH. The better of two rounds counts: the one whose steps took least.
 """
 import sys
 from pathlib import Path
@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "Examples" / "Pytho
 
 import train_network  # noqa: E402
 
-ROUNDS = 3
+ROUNDS = 2
 # Voxels on each side, samples in a batch, workers.
 CASES = ((32, 32, 0), (32, 32, 1), (64, 8, 0), (64, 8, 1))
 
@@ -28,7 +28,7 @@ def measure(meshes, size, batch, workers, steps):
 
 
 def main():
-    steps = int(sys.argv[2]) if len(sys.argv) > 2 else 25
+    steps = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     meshes = [(mesh, label) for label, (_, mesh) in enumerate(train_network.shapes(sys.argv[1]))]
     print("| milliseconds of a training step | step | waited for voxels | per cent |")
     print("| --- | --- | --- | --- |")

@@ -168,7 +168,9 @@ class Loaders(unittest.TestCase):
         self.assertEqual(list(stream(shuffle=False).order()), list(range(9)))
         self.assertEqual(len(stream(drop_last=True)), 2)
         self.assertEqual(len(batches(stream(drop_last=True))), 2)
-        self.assertEqual(len(batches(stream(batch_size=None))), 9)
+        singly = list(DataLoader(stream(batch_size=None), batch_size=None))
+        self.assertEqual([tuple(voxels.shape) for voxels, _ in singly], [(1, *SIZE)] * 9)
+        self.assertEqual([label for _, label in singly], [number // 3 for number in stream().order()])
 
     def test_forked(self):
         if not FORKED:
