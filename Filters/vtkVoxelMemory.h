@@ -14,8 +14,13 @@
 namespace vtkVoxelMemory
 {
 /**
- * Throws std::runtime_error, which names `what` and ends with `remedy`, when it takes more bytes
- * than `limit`, or than are free where the limit is 0.
+ * Whether so many bytes are no more than `limit`, or than are free where the limit is 0.
+ */
+bool Fits(std::int64_t bytes, std::int64_t limit);
+
+/**
+ * Throws std::runtime_error, which names `what` and ends with `remedy`, when so many
+ * bytes don't fit.
  */
 void CheckBytes(
   std::int64_t bytes, std::int64_t limit, const std::string& what, const std::string& remedy);

@@ -124,7 +124,8 @@ vtkDataArray* GetScalars(vtkImageData* image)
   return scalars ? scalars : image->GetCellData()->GetScalars();
 }
 
-vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
+vtkSmartPointer<vtkDataArray> NewArray(
+  const vtkVoxelGrid& grid, int scalarType, vtkVoxelSpareArrays* spare)
 {
   const std::int64_t voxels = grid.GetNumberOfVoxels();
   if (scalarType == VTK_BIT)
@@ -140,7 +141,8 @@ vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
     bits->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
     return bits;
   }
-  return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(ArrayName, voxels, 1, vtkVoxelInitially::Zero);
+  return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(
+    ArrayName, voxels, 1, vtkVoxelInitially::Zero, spare);
 }
 
 void Expand(

@@ -16,6 +16,7 @@
 
 class vtkDataArray;
 class vtkImageData;
+class vtkVoxelSpareArrays;
 struct vtkVoxelGrid;
 
 namespace vtkSlicemapImage
@@ -29,9 +30,11 @@ vtkDataArray* GetScalars(vtkImageData* image);
 
 /**
  * Room for one value a voxel of type VTK_UNSIGNED_CHAR or VTK_BIT, for Expand to fill,
- * named ArrayName. Null when there is no memory for it.
+ * named ArrayName; bytes in the memory of a spare array if one fits. Null when there is no memory
+ * for it.
  */
-vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType);
+vtkSmartPointer<vtkDataArray> NewArray(
+  const vtkVoxelGrid& grid, int scalarType, vtkVoxelSpareArrays* spare = nullptr);
 
 /**
  * For each byte of bits, the eight values it stands for, in memory order.
