@@ -9,7 +9,7 @@ import argparse
 import sys
 import time
 
-from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartXY
+from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartLegend, vtkChartXY
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
 from vtkmodules.vtkCommonDataModel import vtkTable
 from vtkmodules.vtkFiltersSources import (
@@ -131,6 +131,7 @@ def draw_curve(points, chance, file):
         table.AddColumn(array)
     chart = vtkChartXY()
     chart.SetShowLegend(True)
+    chart.GetLegend().SetVerticalAlignment(vtkChartLegend.CENTER)
     chart.SetTitle("Accuracy on held-out variants")
     for column, color in ((1, (30, 90, 180, 255)), (2, (150, 150, 150, 255))):
         line = chart.AddPlot(vtkChart.LINE)
