@@ -10,7 +10,8 @@
 // - ordinary VTK rendering works off-screen without a display, also with our work in between;
 // - a window without OpenGL is refused with one sentence, and so is a machine without, while X
 //   stands in for a missing EGL;
-// - the shared context comes back when somebody closed its EGL display.
+// - the shared context comes back when somebody closed its EGL display;
+// - a process that was forked after the first use is told so, and the first one goes on.
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -729,6 +730,14 @@ void InChild(const std::string& what, void (*check)())
   Expect(WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS, what);
 }
 
+void TestForkedLate()
+{
+  vtkNew<vtkVoxelContext> context;
+  Expect(!context->MakeCurrent(), "the context is the parent's");
+  const std::string message = context->GetErrorMessage();
+  Expect(message.find("forked") != std::string::npos, "why: " + message);
+}
+
 void HideEGLDrivers()
 {
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent", 1);
@@ -835,6 +844,11 @@ int TestVoxelContext(int argc, char* argv[])
   vtkNew<vtkVoxelContext> context;
   std::cout << context->GetRendererName() << ", OpenGL " << context->GetVersion() / 10.0
             << (context->SupportsCompute() ? " with" : " without") << " compute shaders\n";
+
+#ifdef __unix__
+  InChild("a process forked too late has no context", TestForkedLate);
+  Expect(context->MakeCurrent(), "the first process keeps its context");
+#endif
 
   // Left to the end of the process, where sanitizers watch.
   {
