@@ -43,6 +43,9 @@ option(VTKVOXELIZATION_BUILD_BENCHMARKS "Build the benchmarks (needs Google Benc
 option(VTKVOXELIZATION_WARNINGS_AS_ERRORS "Treat warnings in the project's code as errors" OFF)
 option(VTKVOXELIZATION_SANITIZE
   "Check the project's code for bad addresses, leaks and undefined behaviour as it runs" OFF)
+cmake_dependent_option(VTKVOXELIZATION_FUZZ
+  "Fuzz what reads files for some minutes as tests (needs clang and its libFuzzer)" OFF
+  VTKVOXELIZATION_BUILD_TESTING OFF)
 set(VTKVOXELIZATION_LARGE_DATA_DIR "" CACHE PATH
   "Folder with the large meshes; the tests that need them are left out if empty")
 
