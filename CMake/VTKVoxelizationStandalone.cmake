@@ -45,6 +45,9 @@ option(VTKVOXELIZATION_SANITIZE
   "Check the project's code for bad addresses, leaks and undefined behaviour as it runs" OFF)
 set(VTKVOXELIZATION_TORCH_PYTHON "" CACHE FILEPATH
   "A Python that imports both VTK and PyTorch, for the tests that want it; the one in use if empty")
+cmake_dependent_option(VTKVOXELIZATION_FUZZ
+  "Fuzz what reads files for some minutes as tests (needs clang and its libFuzzer)" OFF
+  VTKVOXELIZATION_BUILD_TESTING OFF)
 set(VTKVOXELIZATION_LARGE_DATA_DIR "" CACHE PATH
   "Folder with the large meshes; the tests that need them are left out if empty")
 

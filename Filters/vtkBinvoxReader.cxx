@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBinvoxReader.h"
 
-#include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -15,6 +14,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkVoxelFileError.h"
 #include "vtkVoxelGrid.h"
+#include "vtkVoxelLargeArray.h"
 #include "vtkVoxelTextHeader.h"
 
 #include <algorithm>
@@ -180,11 +180,13 @@ private:
     {
       this->Fail("its dimensions are " + text);
     }
-    const bool isFinite = std::isfinite(corner.x) && std::isfinite(corner.y) &&
-      std::isfinite(corner.z) && std::isfinite(scale);
-    if (!isFinite || scale <= 0.0)
+    const double spacing = scale / double(*std::max_element(n.begin(), n.end()));
+    const glm::dvec3 end = corner + scale;
+    const bool isFinite =
+      std::isfinite(scale) && std::isfinite(end.x) && std::isfinite(end.y) && std::isfinite(end.z);
+    if (!isFinite || spacing <= 0.0)
     {
-      this->Fail("its scale is not positive, or its numbers are not finite");
+      this->Fail("its scale is not positive, or its place is not finite");
     }
     const auto begin = this->Stream.tellg();
     this->Stream.seekg(0, std::ios::end);
@@ -197,7 +199,7 @@ private:
     }
     this->Grid.Extent = { 0, static_cast<int>(n[0]) - 1, 0, static_cast<int>(n[1]) - 1, 0,
       static_cast<int>(n[2]) - 1 };
-    this->Grid.Spacing = glm::dvec3(scale / double(*std::max_element(n.begin(), n.end())));
+    this->Grid.Spacing = glm::dvec3(spacing);
     this->Grid.Origin = corner + 0.5 * this->Grid.Spacing;
   }
 
@@ -255,14 +257,15 @@ int vtkBinvoxReader::RequestData(
   try
   {
     BinvoxFile file(this->FileName);
-    const auto array = vtkSlicemapImage::NewArray(file.GetGrid(), VTK_UNSIGNED_CHAR);
+    const auto array = vtkVoxelNewLargeArray<vtkUnsignedCharArray>(vtkSlicemapImage::ArrayName,
+      file.GetGrid().GetNumberOfVoxels(), 1, vtkVoxelInitially::Undefined);
     if (!array)
     {
       throw vtkVoxelFileError(vtkErrorCode::FileFormatError,
         "There is no memory for the " + std::to_string(file.GetGrid().GetNumberOfVoxels()) +
           " voxels of " + this->FileName + ".");
     }
-    file.ReadVoxels(vtkUnsignedCharArray::SafeDownCast(array)->GetPointer(0),
+    file.ReadVoxels(array->GetPointer(0),
       [this](double fraction)
       {
         this->UpdateProgress(fraction);

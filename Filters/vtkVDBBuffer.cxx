@@ -19,6 +19,29 @@ bool IsMask(std::streamsize count)
   return count == 64 || count == 512 || count == 4096;
 }
 
+/// Values that inactive voxels of a node have, where they are written, by its layout.
+int GetNumberOfInactives(char layout)
+{
+  switch (layout)
+  {
+    case openvdb::io::NO_MASK_AND_ONE_INACTIVE_VAL:
+    case openvdb::io::MASK_AND_ONE_INACTIVE_VAL:
+      return 1;
+    case openvdb::io::MASK_AND_TWO_INACTIVE_VALS:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+/// Whether a mask selects among the values of inactive voxels.
+bool HasSelection(char layout)
+{
+  return layout == openvdb::io::MASK_AND_NO_INACTIVE_VALS ||
+    layout == openvdb::io::MASK_AND_ONE_INACTIVE_VAL ||
+    layout == openvdb::io::MASK_AND_TWO_INACTIVE_VALS;
+}
+
 std::uint32_t ReadLittleEndian(const char* bytes)
 {
   std::uint32_t number = 0;
@@ -48,19 +71,27 @@ std::int64_t GetValueBytes(const openvdb::GridBase& grid)
 }
 }
 
-void vtkVDBBuffer::Watch(std::uint32_t compression, const openvdb::GridBase& grid)
+void vtkVDBBuffer::Watch(std::uint32_t compression, const openvdb::GridBase& grid,
+  std::int64_t treeBegin, std::int64_t fileLength)
 {
   this->IsBlosc = (compression & openvdb::io::COMPRESS_BLOSC) != 0;
   this->IsCompressed = this->IsBlosc || (compression & openvdb::io::COMPRESS_ZIP) != 0;
   this->HasMasks = (compression & openvdb::io::COMPRESS_ACTIVE_MASK) != 0;
   this->ValueBytes = GetValueBytes(grid);
-  this->Next = Expected::Masks;
+  this->TreeBegin = treeBegin;
+  this->FileLength = fileLength;
+  this->Next = Expected::Tree;
   this->Mask.clear();
   this->Announced = 0;
 }
 
 std::streamsize vtkVDBBuffer::xsgetn(char* bytes, std::streamsize count)
 {
+  if (this->IsCompressed && this->Next == Expected::Tree &&
+    this->pubseekoff(0, std::ios::cur, std::ios::in) >= this->TreeBegin)
+  {
+    this->Next = Expected::Masks;
+  }
   const bool isBlock = this->IsBlock(count);
   if (isBlock && this->Announced < 0)
   {
@@ -71,16 +102,11 @@ std::streamsize vtkVDBBuffer::xsgetn(char* bytes, std::streamsize count)
   {
     return found;
   }
-  if (isBlock)
+  if (isBlock && this->Announced > 0 && this->IsBlosc)
   {
-    if (this->Announced > 0 && this->IsBlosc)
-    {
-      this->CheckBloscBlock(bytes, count);
-    }
-    this->Announced = 0;
-    this->Next = Expected::Layout;
+    CheckBloscBlock(bytes, count);
   }
-  else
+  if (this->IsCompressed)
   {
     this->Follow(bytes, count);
   }
@@ -89,8 +115,15 @@ std::streamsize vtkVDBBuffer::xsgetn(char* bytes, std::streamsize count)
 
 bool vtkVDBBuffer::IsBlock(std::streamsize count) const
 {
-  return this->IsCompressed && this->Next == Expected::Values && this->Announced != 0 &&
-    (count == this->Announced || count == -this->Announced);
+  return this->Next == Expected::Values && (count == this->Announced || count == -this->Announced);
+}
+
+void vtkVDBBuffer::CheckAnnounced() const
+{
+  if (this->Announced > this->FileLength || this->Announced < -this->FileLength)
+  {
+    throw std::ios_base::failure("a block of values is longer than the file");
+  }
 }
 
 void vtkVDBBuffer::CheckRawBlock() const
@@ -110,37 +143,65 @@ void vtkVDBBuffer::CheckRawBlock() const
   }
 }
 
-void vtkVDBBuffer::CheckBloscBlock(const char* bytes, std::streamsize count) const
+std::int64_t vtkVDBBuffer::CheckBloscBlock(const char* bytes, std::streamsize count)
 {
-  constexpr std::streamsize header = 16;
-  constexpr int lengthPosition = 12;
-  if (count < header ||
-    std::int64_t(ReadLittleEndian(bytes + lengthPosition)) != std::int64_t(count))
+  constexpr int unpackedPosition = 4;
+  constexpr int packedPosition = 12;
+  if (count < BloscHeader ||
+    std::int64_t(ReadLittleEndian(bytes + packedPosition)) != std::int64_t(count))
   {
     throw std::ios_base::failure("a compressed block has another length than the file says");
   }
+  return ReadLittleEndian(bytes + unpackedPosition);
 }
 
 void vtkVDBBuffer::Follow(const char* bytes, std::streamsize count)
 {
-  const bool isSelection =
-    this->Next == Expected::Values && count == static_cast<std::streamsize>(this->Mask.size());
-  if (IsMask(count) && !isSelection)
+  switch (this->Next)
+  {
+    case Expected::Tree:
+      return;
+    case Expected::Inactives:
+      --this->Inactives;
+      this->FollowLayout();
+      return;
+    case Expected::Selection:
+      this->Next = Expected::Length;
+      return;
+    case Expected::Length:
+      if (count == sizeof(this->Announced))
+      {
+        std::memcpy(&this->Announced, bytes, sizeof(this->Announced));
+        this->CheckAnnounced();
+        this->Next = this->Announced == 0 ? Expected::Masks : Expected::Values;
+        return;
+      }
+      break; // no half floats have no length
+    case Expected::Values:
+      this->Next = Expected::Masks;
+      return;
+    case Expected::Layout:
+      if (count == 1)
+      {
+        this->Layout = *bytes;
+        this->Inactives = GetNumberOfInactives(*bytes);
+        this->FollowLayout();
+        return;
+      }
+      break;
+    case Expected::Masks:
+      break;
+  }
+  if (IsMask(count))
   {
     this->Mask.assign(bytes, bytes + count);
     this->Next = Expected::Layout;
   }
-  else if (count == 1 && this->Next == Expected::Layout)
-  {
-    this->Layout = *bytes;
-    this->Next = Expected::Values;
-  }
-  else if (count == sizeof(this->Announced))
-  {
-    std::memcpy(&this->Announced, bytes, sizeof(this->Announced));
-    if (this->Announced == 0)
-    {
-      this->Next = Expected::Layout;
-    }
-  }
+}
+
+void vtkVDBBuffer::FollowLayout()
+{
+  this->Next = this->Inactives > 0 ? Expected::Inactives
+    : HasSelection(this->Layout)   ? Expected::Selection
+                                   : Expected::Length;
 }

@@ -11,8 +11,11 @@
 #include <openvdb/version.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <istream>
+#include <limits>
 #include <mutex>
 #include <new>
 
@@ -23,11 +26,12 @@ constexpr std::uint32_t OldestVersion = openvdb::OPENVDB_FILE_VERSION_NODE_MASK_
 
 constexpr std::int64_t VersionPosition = 8;
 constexpr std::int64_t HeaderBytes = 8 + 3 * 4 + 1 + 36; // signature, versions, flag, identifier
-constexpr std::int64_t OffsetBytes = 3 * 8;
-constexpr std::int64_t BytesPerLeaf = 64; // at least: its mask
+constexpr std::int64_t BytesPerLeaf = 64;                // at least: its mask
+constexpr std::int64_t BloscPadding = 128; // OpenVDB compresses fewer bytes as so many
 constexpr std::int64_t LongestGridName = 1 << 16;
 constexpr char HalfFloatSuffix[] = "_HalfFloat";
 constexpr char DelayedLoadType[] = "__delayedload";
+constexpr char StringType[] = "string";
 
 /// The destructor of a tree that was not read to its end would follow pointers that were never set.
 void Abandon(const openvdb::GridBase::Ptr& grid)
@@ -75,7 +79,7 @@ struct vtkVDBFile::Archive : public openvdb::io::Archive
     return number;
   }
 
-  void Check(bool holds, const char* what)
+  static void Check(bool holds, const char* what)
   {
     if (!holds)
     {
@@ -85,18 +89,18 @@ struct vtkVDBFile::Archive : public openvdb::io::Archive
 
   void CheckRest(std::int64_t bytes)
   {
-    this->Check(bytes <= this->Length - this->GetPosition(), "it ends too early");
+    Check(bytes <= this->Length - this->GetPosition(), "it ends too early");
   }
 
   std::string ReadString()
   {
     const auto length = this->ReadNumber<std::uint32_t>();
-    this->Check(length <= LongestGridName, "a name is too long");
+    Check(length <= LongestGridName, "a name is too long");
     this->CheckRest(length);
     std::string text(length, '\0');
     if (length > 0)
     {
-      this->Stream.read(&text[0], length);
+      this->Stream.read(text.data(), length);
     }
     return text;
   }
@@ -119,6 +123,26 @@ struct vtkVDBFile::Archive : public openvdb::io::Archive
     this->Seek(begin);
   }
 
+  /// A grid with a tree of its own comes next; its header is read, to know where its tree begins,
+  /// and come back to.
+  void Watch(openvdb::GridBase& grid)
+  {
+    const std::int64_t begin = this->GetPosition();
+    this->ReadGridHeader(grid);
+    const std::int64_t tree = this->GetPosition();
+    Check(this->ReadNumber<std::int32_t>() == 1, "its trees have several buffers");
+    this->Buffer.Watch(this->Compression, grid, tree, this->Length);
+    this->Seek(begin);
+  }
+
+  void ReadGridHeader(openvdb::GridBase& grid)
+  {
+    this->CheckGridHeader();
+    readGridCompression(this->Stream);
+    grid.readMeta(this->Stream);
+    grid.readTransform(this->Stream);
+  }
+
   void SkipMetadata()
   {
     const auto count = this->ReadNumber<std::uint32_t>();
@@ -129,13 +153,53 @@ struct vtkVDBFile::Archive : public openvdb::io::Archive
       const auto bytes = this->ReadNumber<std::uint32_t>();
       this->CheckRest(bytes);
       const std::int64_t end = this->GetPosition() + bytes;
-      if (type == DelayedLoadType && bytes >= sizeof(std::uint32_t))
+      if (type == DelayedLoadType)
       {
-        const auto leaves = this->ReadNumber<std::uint32_t>();
-        this->Check(leaves <= this->Length / BytesPerLeaf, "it has fewer leaves than it says");
+        this->CheckDelayedLoad(end);
+      }
+      else if (type != StringType && openvdb::Metadata::isRegisteredType(type))
+      {
+        // OpenVDB reads as much as the type takes, whatever the file says.
+        Check(bytes == openvdb::Metadata::createMetadata(type)->size(),
+          "a value of its metadata has the wrong length");
       }
       this->Seek(end);
     }
+  }
+
+  /// Two numbers for each leaf, which nobody needs here, but OpenVDB reads.
+  void CheckDelayedLoad(std::int64_t end)
+  {
+    if (this->GetPosition() == end)
+    {
+      return;
+    }
+    const std::int64_t leaves = this->ReadNumber<std::uint32_t>();
+    Check(leaves <= this->Length / BytesPerLeaf, "it has fewer leaves than it says");
+    this->CheckPacked(this->ReadNumber<std::uint32_t>(), leaves * sizeof(std::int8_t), end);
+    const auto packed = this->ReadNumber<std::uint32_t>();
+    if (packed != std::numeric_limits<std::uint32_t>::max())
+    {
+      this->CheckPacked(packed, leaves * sizeof(std::int64_t), end);
+    }
+    Check(this->GetPosition() <= end, "a value of its metadata has the wrong length");
+  }
+
+  /// Bytes that Blosc has packed, or has not where `packed` is 0.
+  void CheckPacked(std::int64_t packed, std::int64_t unpacked, std::int64_t end)
+  {
+    const std::int64_t begin = this->GetPosition();
+    const std::int64_t stored = packed == 0 ? unpacked : packed;
+    Check(stored <= end - begin, "a value of its metadata has the wrong length");
+    if (packed != 0)
+    {
+      std::array<char, vtkVDBBuffer::BloscHeader> header;
+      this->Stream.read(header.data(), header.size());
+      Check(
+        vtkVDBBuffer::CheckBloscBlock(header.data(), packed) <= std::max(unpacked, BloscPadding),
+        "a value of its metadata has the wrong length");
+    }
+    this->Seek(begin + stored);
   }
 
   using openvdb::io::Archive::inputHasGridOffsets;
@@ -221,7 +285,7 @@ void vtkVDBFile::ReadHeader()
 void vtkVDBFile::ReadEntries()
 {
   const std::int32_t count = Archive::readGridCount(this->Input->Stream);
-  this->Input->Check(count >= 0, "its number of grids is negative");
+  Archive::Check(count >= 0, "its number of grids is negative");
   for (std::int32_t i = 0; i < count; ++i)
   {
     this->Entries.push_back(this->ReadEntry());
@@ -240,11 +304,10 @@ vtkVDBFile::Entry vtkVDBFile::ReadEntry()
   const auto gridPosition = input.ReadNumber<std::int64_t>();
   input.ReadNumber<std::int64_t>(); // where the values of the tree begin
   entry.End = input.ReadNumber<std::int64_t>();
-  const std::string suffix = HalfFloatSuffix;
-  const std::size_t suffixBegin = entry.Type.size() - std::min(entry.Type.size(), suffix.size());
-  if (entry.Type.compare(suffixBegin, std::string::npos, suffix) == 0)
+  const std::size_t suffix = entry.Type.rfind(HalfFloatSuffix);
+  if (suffix != std::string::npos && suffix + std::strlen(HalfFloatSuffix) == entry.Type.size())
   {
-    entry.Type.erase(suffixBegin);
+    entry.Type.erase(suffix);
   }
   const std::int64_t position = input.GetPosition();
   const bool isKnown = openvdb::GridBase::isRegistered(entry.Type);
@@ -260,24 +323,15 @@ vtkVDBFile::Entry vtkVDBFile::ReadEntry()
     entry.Grid = this->Read(entry);
     return entry;
   }
-  input.Check(gridPosition == position && entry.End > position && entry.End <= input.Length,
+  Archive::Check(gridPosition == position && entry.End > position && entry.End <= input.Length,
     "it ends too early, or its offsets are wrong");
   if (isKnown)
   {
     entry.Grid = openvdb::GridBase::createGrid(entry.Type);
-    this->ReadGridHeader(entry);
+    input.ReadGridHeader(*entry.Grid);
   }
   input.Seek(entry.End);
   return entry;
-}
-
-void vtkVDBFile::ReadGridHeader(Entry& entry)
-{
-  Archive& input = *this->Input;
-  input.CheckGridHeader();
-  Archive::readGridCompression(input.Stream);
-  entry.Grid->readMeta(input.Stream);
-  entry.Grid->readTransform(input.Stream);
 }
 
 openvdb::GridBase::Ptr vtkVDBFile::Read(const Entry& entry)
@@ -293,10 +347,12 @@ openvdb::GridBase::Ptr vtkVDBFile::Read(const Entry& entry)
     input.Seek(entry.Begin);
     openvdb::io::GridDescriptor descriptor;
     grid = descriptor.read(input.Stream);
-    input.CheckGridHeader();
-    input.Buffer.Watch(input.Compression, *grid);
+    if (entry.Parent.empty())
+    {
+      input.Watch(*grid);
+    }
     Archive::readGrid(grid, descriptor, input.Stream);
-    input.Check(entry.End == 0 || input.GetPosition() == entry.End,
+    Archive::Check(entry.End == 0 || input.GetPosition() == entry.End,
       "a grid has another length than the file says");
   }
   catch (const std::bad_alloc&)

@@ -65,7 +65,6 @@ private:
   void ReadHeader();
   void ReadEntries();
   Entry ReadEntry();
-  void ReadGridHeader(Entry& entry);
 
   std::string Name;
   std::unique_ptr<Archive> Input;

@@ -8,6 +8,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkSlicemap.h"
 #include "vtkSlicemapExpression.h"
+#include "vtkSlicemapExpressionPass.h"
 #include "vtkVoxelContext.h"
 #include "vtkVoxelContextScope.h"
 #include "vtkVoxelGrid.h"
@@ -151,7 +152,8 @@ bool vtkVoxelBoolean::Process(const std::vector<vtkSlicemap*>& inputs, vtkSlicem
   {
     return false;
   }
-  this->Compiled->Expression.Evaluate(this->GetContext()->GetRecord(), inputs, output);
+  vtkSlicemapExpressionPass::Run(
+    this->Compiled->Expression, this->GetContext()->GetRecord(), inputs, output);
   return this->ReportProgress(1.0);
 }
 
@@ -188,8 +190,9 @@ double vtkVoxelBoolean::GetIntersectionVolume()
     {
       return -1.0;
     }
-    vtkSlicemapExpression::Join('&', static_cast<int>(inputs.size()))
-      .Evaluate(this->GetContext()->GetRecord(), inputs, common);
+    vtkSlicemapExpressionPass::Run(
+      vtkSlicemapExpression::Join('&', static_cast<int>(inputs.size())),
+      this->GetContext()->GetRecord(), inputs, common);
     return common->GetNumberOfFilledVoxels() * grids[0].GetVoxelVolume();
   }
   catch (const std::runtime_error& error)

@@ -6,6 +6,7 @@
 #include "vtkSlicemap.h"
 #include "vtkSlicemapComponents.h"
 #include "vtkSlicemapExpression.h"
+#include "vtkSlicemapExpressionPass.h"
 #include "vtkVoxelContext.h"
 #include "vtkVoxelGrid.h"
 
@@ -105,7 +106,7 @@ bool vtkVoxelConnectivity::Process(const std::vector<vtkSlicemap*>& inputs, vtkS
   }
   if (fills)
   {
-    vtkSlicemapExpression::Join('|', 2).Evaluate(
+    vtkSlicemapExpressionPass::Run(vtkSlicemapExpression::Join('|', 2),
       this->GetContext()->GetRecord(), { inputs[0], output }, output);
   }
   return true;

@@ -7,6 +7,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkSlicemap.h"
 #include "vtkSlicemapExpression.h"
+#include "vtkSlicemapExpressionPass.h"
 #include "vtkVoxelContext.h"
 #include "vtkVoxelGrid.h"
 
@@ -171,8 +172,7 @@ bool vtkVoxelMorphology::Process(const std::vector<vtkSlicemap*>& inputs, vtkSli
   const bool isInner = this->Operation == OPERATION_INNER_GRADIENT;
   if (isInner || this->Operation == OPERATION_OUTER_GRADIENT)
   {
-    const auto difference = vtkSlicemapExpression::Join('-', 2);
-    difference.Evaluate(context,
+    vtkSlicemapExpressionPass::Run(vtkSlicemapExpression::Join('-', 2), context,
       isInner ? std::vector<vtkSlicemap*>{ inputs[0], output }
               : std::vector<vtkSlicemap*>{ output, inputs[0] },
       output);

@@ -11,6 +11,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSlicemapExpression.h"
+#include "vtkSlicemapExpressionPass.h"
 #include "vtkSlicemapImage.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkSlicemapPacker.h"
@@ -387,7 +388,7 @@ bool vtkSlicemap::Combine(const vtkSlicemapExpression& expression, vtkSlicemap* 
   }
   try
   {
-    expression.Evaluate(context, { this, other }, this);
+    vtkSlicemapExpressionPass::Run(expression, context, { this, other }, this);
   }
   catch (const std::runtime_error& error)
   {

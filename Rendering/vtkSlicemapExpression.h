@@ -2,22 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file vtkSlicemapExpression.h
- * Private header: Boolean expressions of slicemaps on one grid, compiled to kernels.
- *
- * An expression runs as one pass that reads every word of its inputs once, however often they are
- * named, and writes every word of the result once. Where there are more inputs than the context has
- * texture units, parts of it become intermediate slicemaps.
+ * Private header: Boolean expressions of slicemaps on one grid, as steps in their order.
  */
 
 #ifndef vtkSlicemapExpression_h
 #define vtkSlicemapExpression_h
 
-#include "vtkVoxelGLObjects.h"
-
 #include <string>
 #include <vector>
-
-class vtkSlicemap;
 
 class vtkSlicemapExpression
 {
@@ -46,17 +38,6 @@ public:
    */
   static vtkSlicemapExpression Complement();
 
-  /**
-   * Fills `target`, which is allocated on the grid of the inputs and may be one of them, in the
-   * current context. Throws std::runtime_error.
-   */
-  void Evaluate(const vtkVoxelGL::Context& context, const std::vector<vtkSlicemap*>& inputs,
-    vtkSlicemap* target) const;
-
-private:
-  class Parser;
-  class Evaluation;
-
   /// Either the result of a step or an input.
   struct Operand
   {
@@ -76,9 +57,16 @@ private:
     Operand Right;
   };
 
+  /// A step's operands precede it, and each is used by one step.
+  const std::vector<Step>& GetSteps() const { return this->Steps; }
+  const Operand& GetResult() const { return this->Result; }
+
+private:
+  class Parser;
+
   Operand Append(char operation, Operand left, Operand right);
 
-  std::vector<Step> Steps; ///< a step's operands precede it, and each is used by one step
+  std::vector<Step> Steps;
   Operand Result{ Operand::Kind::Input, 0 };
 };
 

@@ -2,6 +2,7 @@
 
 #include "VoxelComparison.h"
 #include "VoxelSurfaceReference.h"
+#include "VoxelTestMeshes.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -167,6 +168,29 @@ bool CheckParts(const std::string& name, vtkVoxelizer* voxelizer, int seed, int 
                 << ", " << part[2] << ", " << part[3] << ", " << part[4] << ", " << part[5]
                 << ") differs from the whole\n";
       good = false;
+    }
+  }
+  return good;
+}
+
+bool CheckLargeMeshes(int backend, int argc, char* argv[])
+{
+  bool good = true;
+  for (const char* file : { "bunny.ply", "bunny_7k.ply", "dragon.ply", "armadillo.ply", "gears.ply",
+         "fandisk.ply", "torusknot.ply" })
+  {
+    const VoxelTestMeshes::Mesh mesh = VoxelTestMeshes::ReadPLY(file, argc, argv);
+    if (!mesh)
+    {
+      std::cerr << file << " is missing\n";
+      return false;
+    }
+    const VoxelTestMeshes::Mesh rotated = VoxelTestMeshes::Rotated(mesh);
+    for (const int n : { 64, 128, 256 })
+    {
+      const std::string name = file + (" at " + std::to_string(n));
+      good &= CheckExact(name, mesh, MakeGridAround(mesh, n), { backend });
+      good &= CheckExact(name + " rotated", rotated, MakeGridAround(rotated, n), { backend });
     }
   }
   return good;

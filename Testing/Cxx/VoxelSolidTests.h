@@ -44,6 +44,10 @@ vtkSmartPointer<vtkImageData> MakeGridAround(vtkPolyData* mesh, int n);
 vtkSmartPointer<vtkSlicemapSolidVoxelizer> MakeVoxelizer(
   vtkPolyData* mesh, vtkImageData* grid, int backend, int axis);
 
+/// CheckExact for the closed meshes of the large data, at 64, 128 and 256 voxels, as they are and
+/// rotated. Returns false, too, when one is missing.
+bool CheckLargeMeshes(int backend, int argc, char* argv[]);
+
 /// Runs each backend along each axis on a closed mesh. All voxels that differ from the reference
 /// lie within the backend's tolerance of the surface, and no column leaks. Prints a line and
 /// returns false when not.
