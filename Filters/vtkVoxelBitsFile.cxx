@@ -3,7 +3,6 @@
 #include "vtkVoxelBitsFile.h"
 
 #include "vtkSMPTools.h"
-#include "vtkSlicemap.h"
 #include "vtkVoxelTextHeader.h"
 
 #include <algorithm>
@@ -17,24 +16,6 @@
 namespace
 {
 constexpr int ByteBits = 8;
-constexpr int WordBits = 32;
-
-using ReversedBytes = std::array<unsigned char, 256>;
-
-/// Each byte with its bits in the opposite order: the first voxel is the highest bit of a file's
-/// byte and the lowest one of a word.
-ReversedBytes MakeReversedBytes()
-{
-  ReversedBytes table{};
-  for (unsigned int byte = 0; byte < table.size(); ++byte)
-  {
-    for (int bit = 0; bit < ByteBits; ++bit)
-    {
-      table[byte] |= static_cast<unsigned char>((byte >> bit & 1) << (ByteBits - 1 - bit));
-    }
-  }
-  return table;
-}
 }
 
 std::string vtkVoxelBitsFile::MakeHeader() const
@@ -137,35 +118,6 @@ vtkVoxelBitsFile vtkVoxelBitsFile::Read(std::istream& stream)
   file.Seed = seed[0];
   file.Label = header.GetText("label");
   return file;
-}
-
-std::vector<unsigned char> vtkVoxelBitsFile::Pack(
-  const std::uint32_t* words, const vtkVoxelGrid& grid)
-{
-  static const ReversedBytes reversed = MakeReversedBytes();
-  const glm::ivec3 n = grid.GetDimensions();
-  const std::int64_t rows = std::int64_t(n.y) * n.z;
-  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
-  std::vector<unsigned char> bytes((grid.GetNumberOfVoxels() + ByteBits - 1) / ByteBits, 0);
-  // Bits of rows follow each other without a gap; those behind the last voxel of a row are zero.
-  std::int64_t at = 0;
-  for (std::int64_t row = 0; row < rows; ++row, at += n.x)
-  {
-    for (int x = 0; x < n.x; x += ByteBits)
-    {
-      const std::uint32_t word = words[row * wordsPerRow + x / WordBits];
-      const unsigned int byte = reversed[word >> (x % WordBits) & 0xffu];
-      const std::int64_t bit = at + x;
-      const int shift = static_cast<int>(bit % ByteBits);
-      bytes[bit / ByteBits] |= static_cast<unsigned char>(byte >> shift);
-      const unsigned int rest = byte << (ByteBits - shift) & 0xffu;
-      if (shift != 0 && rest != 0)
-      {
-        bytes[bit / ByteBits + 1] |= static_cast<unsigned char>(rest);
-      }
-    }
-  }
-  return bytes;
 }
 
 void vtkVoxelBitsFile::Unpack(

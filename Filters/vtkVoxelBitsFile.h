@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <istream>
 #include <string>
-#include <vector>
 
 struct vtkVoxelBitsFile
 {
@@ -35,10 +34,7 @@ struct vtkVoxelBitsFile
   /// std::runtime_error with what is wrong.
   static vtkVoxelBitsFile Read(std::istream& stream);
 
-  /// From words as vtkSlicemap has them to the bytes of a variant.
-  static std::vector<unsigned char> Pack(const std::uint32_t* words, const vtkVoxelGrid& grid);
-
-  /// From bytes of a variant to one value a voxel.
+  /// From bytes of a variant, which are those of a vtkBitArray, to one value a voxel.
   static void Unpack(const unsigned char* bytes, std::int64_t voxels, unsigned char* values);
 };
 

@@ -14,6 +14,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkVoxelBitsFile.h"
 #include "vtkVoxelFileError.h"
+#include "vtkVoxelLargeArray.h"
 
 #include <fstream>
 #include <stdexcept>
@@ -155,12 +156,13 @@ int vtkVoxelBitsReader::RequestData(
     File file(this->FileName);
     file.CheckVariant(this->Variant);
     const vtkVoxelGrid& grid = file.GetHeader().Grid;
-    const auto array = vtkSlicemapImage::NewArray(grid, VTK_UNSIGNED_CHAR);
+    const auto array = vtkVoxelNewLargeArray<vtkUnsignedCharArray>(
+      vtkSlicemapImage::ArrayName, grid.GetNumberOfVoxels());
     if (!array)
     {
       file.RefuseMemory();
     }
-    file.Read(this->Variant, vtkUnsignedCharArray::SafeDownCast(array)->GetPointer(0));
+    file.Read(this->Variant, array->GetPointer(0));
     grid.ApplyTo(output);
     output->GetPointData()->SetScalars(array);
   };

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVoxelBitsWriter.h"
 
+#include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkImageVoxels.h"
 #include "vtkInformation.h"
 #include "vtkNewVoxelFile.h"
 #include "vtkObjectFactory.h"
+#include "vtkSlicemapImage.h"
 #include "vtkTetraCoveringVoxelizer.h"
 #include "vtkVoxelBitsFile.h"
 #include "vtkVoxelFileError.h"
@@ -19,10 +21,17 @@ vtkStandardNewMacro(vtkVoxelBitsWriter);
 
 namespace
 {
-void Append(vtkNewVoxelFile& file, const std::vector<unsigned char>& bytes)
+/// The bytes of a variant are those of a vtkBitArray.
+void Append(vtkNewVoxelFile& file, const std::uint32_t* words, const vtkVoxelGrid& grid)
 {
-  file.GetStream().write(
-    reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  const auto array = vtkSlicemapImage::NewArray(grid, VTK_BIT);
+  if (!array)
+  {
+    throw std::bad_alloc();
+  }
+  vtkSlicemapImage::Expand(words, grid, 1, array);
+  file.GetStream().write(static_cast<const char*>(array->GetVoidPointer(0)),
+    static_cast<std::streamsize>((grid.GetNumberOfVoxels() + 7) / 8));
 }
 }
 
@@ -88,8 +97,7 @@ void vtkVoxelBitsWriter::WriteData()
       description.Grid = voxels.Grid;
       vtkNewVoxelFile file(this->FileName, this->InPlace);
       file.GetStream() << description.MakeHeader();
-      voxels.Read([&](const std::uint32_t* words)
-        { Append(file, vtkVoxelBitsFile::Pack(words, voxels.Grid)); });
+      voxels.Read([&](const std::uint32_t* words) { Append(file, words, voxels.Grid); });
       file.Commit();
       return true;
     });
@@ -118,7 +126,7 @@ bool vtkVoxelBitsWriter::WriteBatch(
             description.Grid = grid;
             file.GetStream() << description.MakeHeader();
           }
-          Append(file, vtkVoxelBitsFile::Pack(words, grid));
+          Append(file, words, grid);
           return static_cast<bool>(file.GetStream());
         });
       if (finished || !file.GetStream())

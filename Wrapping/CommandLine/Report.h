@@ -34,7 +34,8 @@ public:
 
   /// Adds what a pipeline that has run made of its meshes. Slabs leave their number of
   /// filled voxels behind, and no more.
-  void Describe(const VoxelPipeline& pipeline, std::optional<vtkIdType> filledInSlabs);
+  void Describe(
+    const VoxelPipeline& pipeline, std::optional<vtkIdType> filledInSlabs = std::nullopt);
 
   void Print() const;
 
