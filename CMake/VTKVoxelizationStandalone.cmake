@@ -43,6 +43,8 @@ option(VTKVOXELIZATION_BUILD_BENCHMARKS "Build the benchmarks (needs Google Benc
 option(VTKVOXELIZATION_WARNINGS_AS_ERRORS "Treat warnings in the project's code as errors" OFF)
 option(VTKVOXELIZATION_SANITIZE
   "Check the project's code for bad addresses, leaks and undefined behaviour as it runs" OFF)
+set(VTKVOXELIZATION_TORCH_PYTHON "" CACHE FILEPATH
+  "A Python that imports both VTK and PyTorch, for the tests that want it; the one in use if empty")
 cmake_dependent_option(VTKVOXELIZATION_FUZZ
   "Fuzz what reads files for some minutes as tests (needs clang and its libFuzzer)" OFF
   VTKVOXELIZATION_BUILD_TESTING OFF)
@@ -73,6 +75,10 @@ set(CMAKE_INSTALL_RPATH "${rpath_origin}" "${rpath_origin}/${bin_to_lib}")
 
 if(VTKVOXELIZATION_WRAP_PYTHON)
   include(VTKVoxelizationFindPython)
+  set(torch_python "${Python3_EXECUTABLE}")
+  if(VTKVOXELIZATION_TORCH_PYTHON)
+    set(torch_python "${VTKVOXELIZATION_TORCH_PYTHON}")
+  endif()
   find_package(VTK "${VTK_VERSION}" EXACT REQUIRED COMPONENTS ${wrapping_components})
 endif()
 include(VTKVoxelizationInstrument)

@@ -15,13 +15,13 @@
 #include "vtkVoxelFileError.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelLargeArray.h"
+#include "vtkVoxelTextHeader.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <locale>
-#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,7 +31,6 @@ const std::string Signature = "#binvox";
 
 constexpr std::int64_t LongestRun = 255;
 constexpr std::int64_t BytesPerRun = 2;
-constexpr std::size_t LongestHeader = 65536;
 
 /// Makes rows along x of values that come with y fastest, then z, then x: some planes at a time, so
 /// that neighbours of a row are written together.
@@ -155,61 +154,21 @@ private:
 
   void ReadHeader()
   {
-    std::string line;
-    std::size_t length = 0;
-    const auto readLine = [&]
+    std::array<std::int64_t, 3> dim{ 0, 0, 0 };
+    std::array<double, 3> corner{ 0.0, 0.0, 0.0 };
+    std::array<double, 1> scale{ 1.0 };
+    try
     {
-      line.clear();
-      for (char c = 0; this->Stream.get(c) && c != '\n';)
-      {
-        line += c;
-        if (++length > LongestHeader)
-        {
-          this->Fail("its header has no end");
-        }
-      }
-      line.erase(std::find(line.begin(), line.end(), '\r'), line.end());
-      return static_cast<bool>(this->Stream);
-    };
-    if (!readLine() || line.compare(0, Signature.size(), Signature) != 0)
-    {
-      this->Fail("it does not begin with " + Signature);
+      const vtkVoxelTextHeader header(this->Stream, Signature);
+      header.Get("dim", dim);
+      header.Get("translate", corner);
+      header.Get("scale", scale);
     }
-    std::array<std::int64_t, 3> dimensions{ 0, 0, 0 };
-    glm::dvec3 corner(0.0);
-    double scale = 1.0;
-    for (;;)
+    catch (const std::runtime_error& error)
     {
-      if (!readLine())
-      {
-        this->Fail("its header ends before the line \"data\"");
-      }
-      std::istringstream words(line);
-      words.imbue(std::locale::classic());
-      std::string key;
-      words >> key;
-      if (key == "data")
-      {
-        break;
-      }
-      if (key == "dim")
-      {
-        words >> dimensions[0] >> dimensions[2] >> dimensions[1];
-      }
-      else if (key == "translate")
-      {
-        words >> corner.x >> corner.y >> corner.z;
-      }
-      else if (key == "scale")
-      {
-        words >> scale;
-      }
-      if (key != "" && !words && (key == "dim" || key == "translate" || key == "scale"))
-      {
-        this->Fail("the line \"" + line + "\" of its header lacks a number");
-      }
+      this->Fail(error.what());
     }
-    this->SetGrid(dimensions, corner, scale);
+    this->SetGrid({ dim[0], dim[2], dim[1] }, { corner[0], corner[1], corner[2] }, scale[0]);
   }
 
   void SetGrid(const std::array<std::int64_t, 3>& n, const glm::dvec3& corner, double scale)

@@ -141,34 +141,36 @@ void WithValues(vtkDataArray* density, const Function& function)
   }
 }
 
-vtkSmartPointer<vtkDataArray> NewDensity(int type, std::int64_t voxels)
+vtkSmartPointer<vtkDataArray> NewDensity(int type, std::int64_t voxels, vtkVoxelSpareArrays* spare)
 {
   const char* name = vtkDensityArrays::DensityName;
   switch (type)
   {
     case VTK_UNSIGNED_CHAR:
-      return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(name, voxels, 1, vtkVoxelInitially::Zero);
+      return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(
+        name, voxels, 1, vtkVoxelInitially::Zero, spare);
     case VTK_UNSIGNED_SHORT:
-      return vtkVoxelNewLargeArray<vtkUnsignedShortArray>(name, voxels, 1, vtkVoxelInitially::Zero);
+      return vtkVoxelNewLargeArray<vtkUnsignedShortArray>(
+        name, voxels, 1, vtkVoxelInitially::Zero, spare);
     default:
-      return vtkVoxelNewLargeArray<vtkFloatArray>(name, voxels, 1, vtkVoxelInitially::Zero);
+      return vtkVoxelNewLargeArray<vtkFloatArray>(name, voxels, 1, vtkVoxelInitially::Zero, spare);
   }
 }
 }
 
 vtkDensityArrays::vtkDensityArrays(
-  const vtkVoxelGrid& grid, int planes, int type, Gradient gradient)
+  const vtkVoxelGrid& grid, int planes, int type, Gradient gradient, vtkVoxelSpareArrays* spare)
   : Size(grid.GetDimensions())
   , Planes(planes)
   , Kind(gradient)
   , Outwards(GetOutwards(grid))
 {
   const std::int64_t voxels = grid.GetNumberOfVoxels();
-  this->Density = NewDensity(type, voxels);
+  this->Density = NewDensity(type, voxels, spare);
   if (gradient != Gradient::None)
   {
     this->Normals =
-      vtkVoxelNewLargeArray<vtkFloatArray>("Normals", voxels, 3, vtkVoxelInitially::Zero);
+      vtkVoxelNewLargeArray<vtkFloatArray>("Normals", voxels, 3, vtkVoxelInitially::Zero, spare);
   }
   if (!this->Density || (gradient != Gradient::None && !this->Normals))
   {

@@ -19,6 +19,7 @@
 
 class vtkDataArray;
 class vtkFloatArray;
+class vtkVoxelSpareArrays;
 struct vtkVoxelGrid;
 
 class vtkDensityArrays
@@ -34,8 +35,10 @@ public:
   static constexpr char DensityName[] = "Density";
 
   /// `type` is VTK_UNSIGNED_CHAR or VTK_UNSIGNED_SHORT for counts that fit, or VTK_FLOAT for
-  /// fractions of the largest count. Throws std::runtime_error when there is no memory.
-  vtkDensityArrays(const vtkVoxelGrid& grid, int planes, int type, Gradient gradient);
+  /// fractions of the largest count. Spare arrays may give their memory. Throws
+  /// std::runtime_error when there is none.
+  vtkDensityArrays(const vtkVoxelGrid& grid, int planes, int type, Gradient gradient,
+    vtkVoxelSpareArrays* spare = nullptr);
   ~vtkDensityArrays();
 
   /// Slabs must come in order, without gaps.

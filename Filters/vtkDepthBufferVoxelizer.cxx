@@ -31,18 +31,92 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 vtkStandardNewMacro(vtkDepthBufferVoxelizer);
+
+namespace
+{
+constexpr double ShareOfDraws = 0.5;
+
+/// A pair of buffers that the user gave.
+struct GivenPair
+{
+  int Axis;
+  vtkSmartPointer<vtkImageData> Near;
+  vtkSmartPointer<vtkImageData> Far;
+};
+
+using TimesOfProps = std::vector<std::pair<const vtkProp*, vtkMTimeType>>;
+
+TimesOfProps GetTimes(const std::vector<vtkProp*>& props)
+{
+  TimesOfProps times;
+  std::transform(props.begin(), props.end(), std::back_inserter(times),
+    [](vtkProp* prop) { return std::make_pair(prop, vtkDepthPropPainter::GetTime(prop)); });
+  return times;
+}
+
+/// What buffers show; equal contents look the same.
+struct Contents
+{
+  vtkVoxelGrid Grid;
+  TimesOfProps Props;
+  std::vector<vtkVoxelMesh::Identity> Mesh;
+
+  bool operator==(const Contents& other) const
+  {
+    return this->Grid == other.Grid && this->Props == other.Props && this->Mesh == other.Mesh;
+  }
+};
+
+/// Depths in voxels, on one side, as OpenGL stores them. Throws std::runtime_error.
+std::vector<float> ToStoredDepths(vtkImageData* image, const vtkDepthView& view, bool isNear)
+{
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  const vtkIdType pixels = vtkIdType(view.Size.x) * view.Size.y;
+  const int* n = image->GetDimensions();
+  if (!scalars || scalars->GetNumberOfComponents() != 1 || n[0] != view.Size.x ||
+    n[1] != view.Size.y || n[2] != 1 || scalars->GetNumberOfTuples() != pixels)
+  {
+    throw std::runtime_error("A given depth buffer has " + std::to_string(n[0]) + " x " +
+      std::to_string(n[1]) + " x " + std::to_string(n[2]) + " pixels and " +
+      (scalars ? std::to_string(scalars->GetNumberOfComponents()) : "no") +
+      " components; along its axis the grid has " + std::to_string(view.Size.x) + " x " +
+      std::to_string(view.Size.y) +
+      " columns, and there must be one component. Give it what "
+      "GetDepthBuffer gave on this grid.");
+  }
+  const double length = view.GetViewport().z;
+  std::vector<float> depths(pixels);
+  for (vtkIdType i = 0; i < pixels; ++i)
+  {
+    const double part = (scalars->GetComponent(i, 0) + 0.5) / length;
+    depths[i] = std::isfinite(part)
+      ? static_cast<float>(std::clamp(isNear ? part : 1.0 - part, 0.0, 1.0))
+      : 1.0F;
+  }
+  return depths;
+}
+}
 
 struct vtkDepthBufferVoxelizer::Scene
 {
   std::vector<vtkSmartPointer<vtkProp>> Props;
   vtkWeakPointer<vtkRenderer> Renderer;
   std::vector<glm::dvec3> Views;
+  std::vector<GivenPair> Given;
   vtkDepthBuffers Buffers;
-  glm::ivec3 First{ 0 };       // voxel of the grid that the buffers were made for
+  Contents Shown;                                     // by the buffers
+  std::vector<vtkDepthBuffers::Direction> Directions; // of this run
+  std::vector<vtkDepthBuffers::Given> GivenDepths;    // of this run
+  int DrawsExpected = 0;                              // of this run
+  int DrawsDone = 0;
   bool IsAskedForTime = false; // a scene may show what this filter made of it
+
+  glm::ivec3 GetFirst() const { return this->Shown.Grid.GetFirst(); }
 };
 
 vtkDepthBufferVoxelizer::vtkDepthBufferVoxelizer()
@@ -125,6 +199,38 @@ int vtkDepthBufferVoxelizer::GetNumberOfViews()
   return static_cast<int>(this->Drawn->Views.size());
 }
 
+void vtkDepthBufferVoxelizer::AddDepthBuffers(
+  int axis, vtkImageData* nearSide, vtkImageData* farSide)
+{
+  if (axis < 0 || axis > 2 || !nearSide || !farSide)
+  {
+    vtkErrorMacro(
+      "Given depth buffers need two images and an axis from 0 to 2, not " << axis << ".");
+    return;
+  }
+  this->Drawn->Given.push_back({ axis, nearSide, farSide });
+  this->Modified();
+}
+
+void vtkDepthBufferVoxelizer::RemoveAllDepthBuffers()
+{
+  if (!this->Drawn->Given.empty())
+  {
+    this->Drawn->Given.clear();
+    this->Modified();
+  }
+}
+
+int vtkDepthBufferVoxelizer::GetNumberOfGivenDepthBufferPairs()
+{
+  return static_cast<int>(this->Drawn->Given.size());
+}
+
+int vtkDepthBufferVoxelizer::GetNumberOfBufferDraws()
+{
+  return this->Drawn->Buffers.GetNumberOfDraws();
+}
+
 int vtkDepthBufferVoxelizer::GetNumberOfDepthBufferPairs()
 {
   return this->GetSlicemap() ? static_cast<int>(this->Drawn->Buffers.GetPairs().size()) : 0;
@@ -142,7 +248,7 @@ bool vtkDepthBufferVoxelizer::GetDepthBuffer(int pair, int side, vtkImageData* i
     return false;
   }
   const vtkVoxelContext::Scope scope(this->GetContext());
-  const auto& buffers = this->Drawn->Buffers.GetPairs()[pair];
+  const auto& buffers = *this->Drawn->Buffers.GetPairs()[pair];
   if (!scope || !buffers.NearDepth)
   {
     vtkErrorMacro("The context of the depth buffers is gone. Update the filter first.");
@@ -166,7 +272,7 @@ double vtkDepthBufferVoxelizer::GetHiddenVolumeEstimate()
   vtkSlicemap* result = this->GetSlicemap();
   vtkDataObject* input = this->GetInputDataObject(0, 0);
   const bool comparable = result && input && this->OutputMode != OUTPUT_MODE_SURFACE &&
-    this->Drawn->Props.empty() && !this->Drawn->Renderer;
+    this->Drawn->Props.empty() && !this->Drawn->Renderer && this->Drawn->Given.empty();
   if (!comparable)
   {
     return -1.0;
@@ -205,7 +311,11 @@ vtkMTimeType vtkDepthBufferVoxelizer::GetMTime()
   this->Drawn->IsAskedForTime = true;
   for (const auto& prop : this->Drawn->Props)
   {
-    time = std::max(time, prop->GetRedrawMTime());
+    time = std::max(time, vtkDepthPropPainter::GetTime(prop));
+  }
+  for (const GivenPair& given : this->Drawn->Given)
+  {
+    time = std::max({ time, given.Near->GetMTime(), given.Far->GetMTime() });
   }
   if (vtkRenderer* renderer = this->Drawn->Renderer)
   {
@@ -215,7 +325,7 @@ vtkMTimeType vtkDepthBufferVoxelizer::GetMTime()
     shown->InitTraversal(iterator);
     while (vtkProp* prop = shown->GetNextProp(iterator))
     {
-      time = std::max(time, prop->GetRedrawMTime());
+      time = std::max(time, vtkDepthPropPainter::GetTime(prop));
     }
   }
   this->Drawn->IsAskedForTime = false;
@@ -269,31 +379,109 @@ bool vtkDepthBufferVoxelizer::GetInputBounds(vtkDataObject* input, double bounds
   return box.IsValid() != 0;
 }
 
-void vtkDepthBufferVoxelizer::MakeBuffers(const vtkVoxelGrid& whole)
+bool vtkDepthBufferVoxelizer::HasGivenOnly()
+{
+  return !this->Drawn->Given.empty() && this->Drawn->Props.empty() && !this->Drawn->Renderer &&
+    this->GetNumberOfInputConnections(0) == 0;
+}
+
+bool vtkDepthBufferVoxelizer::ChoosesAxes(bool hasProps) const
+{
+  return this->AutomaticAxes && !hasProps && this->OutputMode != OUTPUT_MODE_DENSITY;
+}
+
+void vtkDepthBufferVoxelizer::MakeBuffers(
+  const vtkVoxelGrid& whole, const std::vector<vtkProp*>& props)
 {
   const vtkVoxelContext::Scope scope(this->GetContext());
   if (!scope)
   {
     throw std::runtime_error(this->GetContext()->GetErrorMessage());
   }
-  vtkDepthBuffers& buffers = this->Drawn->Buffers;
-  buffers.Start(this->GetContext()->GetRecord());
-  for (int axis = 0; axis < 3; ++axis)
+  Contents contents{ whole, GetTimes(props),
+    vtkVoxelMesh::Identify(this->GetInputDataObject(0, 0)) };
+  Scene& scene = *this->Drawn;
+  if (!scene.Buffers.IsIn(this->GetContext()->GetRecord()) || !(contents == scene.Shown))
   {
-    if (this->Axes[axis])
+    scene.Buffers.Start(this->GetContext()->GetRecord());
+    scene.Shown = std::move(contents);
+  }
+  scene.GivenDepths.clear();
+  for (const GivenPair& given : scene.Given)
+  {
+    const auto view = vtkDepthView::AlongAxis(whole, given.Axis);
+    scene.GivenDepths.push_back({ given.Axis, view, ToStoredDepths(given.Near, view, true),
+      ToStoredDepths(given.Far, view, false) });
+  }
+  scene.Directions.clear();
+  if (!this->HasGivenOnly())
+  {
+    for (int axis = 0; axis < 3; ++axis)
     {
-      buffers.Add(axis, vtkDepthView::AlongAxis(whole, axis));
+      if (this->Axes[axis])
+      {
+        scene.Directions.emplace_back(axis, vtkDepthView::AlongAxis(whole, axis));
+      }
+    }
+    for (const glm::dvec3& direction : scene.Views)
+    {
+      scene.Directions.emplace_back(
+        vtkDepthBuffers::Oblique, vtkDepthView::AlongDirection(whole, direction));
     }
   }
-  for (const glm::dvec3& direction : this->Drawn->Views)
+  scene.Buffers.Use({});
+  if (!this->ChoosesAxes(!props.empty()))
   {
-    buffers.Add(vtkDepthBuffers::Oblique, vtkDepthView::AlongDirection(whole, direction));
+    scene.Buffers.Use(scene.Directions);
   }
+}
+
+bool vtkDepthBufferVoxelizer::DrawMesh(const vtkVoxelMesh& mesh)
+{
+  Scene& scene = *this->Drawn;
+  const bool isEmpty = mesh.GetNumberOfTriangles() == 0;
+  if (this->ChoosesAxes(!scene.Shown.Props.empty()) && !isEmpty)
+  {
+    const auto sufficient = scene.Buffers.FindSufficient(scene.Directions, mesh);
+    if (sufficient != scene.Directions.end())
+    {
+      const auto chosen = *sufficient;
+      scene.Directions.erase(std::remove_if(scene.Directions.begin(), scene.Directions.end(),
+                               [&](const auto& direction) {
+                                 return direction.first != vtkDepthBuffers::Oblique &&
+                                   direction.first != chosen.first;
+                               }),
+        scene.Directions.end());
+    }
+    scene.Buffers.Use(scene.Directions);
+  }
+  std::fill_n(this->UsedAxes, 3, false);
+  for (const auto& direction : scene.Directions)
+  {
+    if (direction.first != vtkDepthBuffers::Oblique)
+    {
+      this->UsedAxes[direction.first] = true;
+    }
+  }
+  if (!scene.Buffers.Draw(isEmpty ? nullptr : &mesh, [this] { return this->ReportDraw(); }))
+  {
+    return false;
+  }
+  scene.Buffers.Intersect(scene.GivenDepths);
+  return true;
+}
+
+bool vtkDepthBufferVoxelizer::ReportDraw()
+{
+  Scene& scene = *this->Drawn;
+  ++scene.DrawsDone;
+  return this->ReportProgress(
+    ShareOfDraws * std::min(1.0, double(scene.DrawsDone) / scene.DrawsExpected));
 }
 
 void vtkDepthBufferVoxelizer::CheckParameters()
 {
-  if (!this->Axes[0] && !this->Axes[1] && !this->Axes[2])
+  if (!this->Axes[0] && !this->Axes[1] && !this->Axes[2] && this->Drawn->Given.empty())
   {
     throw std::runtime_error("There is no axis to look along. Set one of Axes at least.");
   }
@@ -318,36 +506,39 @@ void vtkDepthBufferVoxelizer::CheckParameters()
   }
 }
 
-void vtkDepthBufferVoxelizer::Prepare(const vtkVoxelGrid& whole)
+bool vtkDepthBufferVoxelizer::Prepare(const vtkVoxelGrid& whole)
 {
   this->CheckParameters();
   const auto props = this->GetCheckedProps();
-  if (props.empty() && this->GetNumberOfInputConnections(0) == 0)
+  if (props.empty() && this->GetNumberOfInputConnections(0) == 0 && this->Drawn->Given.empty())
   {
     throw std::runtime_error(
       "There is nothing to voxelize. Connect a mesh, add a prop, or set a renderer.");
   }
-  this->Drawn->First = whole.GetFirst();
-  this->MakeBuffers(whole);
-  if (!props.empty())
+  this->MakeBuffers(whole, props);
+  const auto sides = static_cast<int>(2 * this->Drawn->Directions.size());
+  this->Drawn->DrawsExpected = std::max(1, props.empty() ? sides : 2 * sides);
+  this->Drawn->DrawsDone = 0;
+  if (!props.empty() &&
+    !vtkDepthPropPainter::Draw(
+      props, this->Drawn->Buffers, this->GetContext(), [this] { return this->ReportDraw(); }))
   {
-    vtkDepthPropPainter::Draw(props, this->Drawn->Buffers, this->GetContext());
+    return false;
   }
+  // Mappers say that they changed when they give their graphics resources back.
+  this->Drawn->Shown.Props = GetTimes(props);
+  return true;
 }
 
 bool vtkDepthBufferVoxelizer::Voxelize(
   vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap)
 {
-  if (!slicemap->Allocate(grid))
+  if (!this->DrawMesh(mesh) || !this->ReportProgress(ShareOfDraws) || !slicemap->Allocate(grid))
   {
     return false;
   }
   const vtkDepthBuffers& buffers = this->Drawn->Buffers;
-  if (mesh.GetNumberOfTriangles() > 0)
-  {
-    buffers.Draw(mesh);
-  }
-  const glm::ivec3 first = grid.GetFirst() - this->Drawn->First;
+  const glm::ivec3 first = grid.GetFirst() - this->Drawn->GetFirst();
   if (this->OutputMode == OUTPUT_MODE_SURFACE)
   {
     buffers.FillSurface(
@@ -358,6 +549,21 @@ bool vtkDepthBufferVoxelizer::Voxelize(
     buffers.FillSolid(slicemap, first);
   }
   return this->ReportProgress(1.0);
+}
+
+std::int64_t vtkDepthBufferVoxelizer::EstimateBytes(const vtkVoxelGrid& part)
+{
+  // Those of the whole: two depths, ranges and shells.
+  constexpr std::int64_t bytesPerPixel = 4 * 4;
+  const auto grid = vtkVoxelGrid::FromInformation(this->GetOutputInformation(0));
+  const glm::i64vec3 n(grid.GetDimensions());
+  const glm::i64vec3 pixels(n.y * n.z, n.x * n.z, n.x * n.y);
+  std::int64_t bytes = this->Superclass::EstimateBytes(part);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bytes += this->Axes[axis] ? pixels[axis] * bytesPerPixel : 0;
+  }
+  return bytes;
 }
 
 std::int64_t vtkDepthBufferVoxelizer::GetBytesOfArrays()
@@ -380,7 +586,7 @@ bool vtkDepthBufferVoxelizer::AddArrays(
       std::to_string(grid.GetNumberOfVoxels()) + " voxels. Use fewer voxels.");
   }
   this->Drawn->Buffers.ReadDensity(
-    grid, grid.GetFirst() - this->Drawn->First, density->GetPointer(0));
+    grid, grid.GetFirst() - this->Drawn->GetFirst(), density->GetPointer(0));
   voxels->AddArray(density);
   return true;
 }
@@ -392,6 +598,11 @@ void vtkDepthBufferVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfProps: " << this->GetNumberOfProps() << "\n";
   os << indent << "Renderer: " << this->GetRenderer() << "\n";
   os << indent << "Axes: " << this->Axes[0] << " " << this->Axes[1] << " " << this->Axes[2] << "\n";
+  os << indent << "AutomaticAxes: " << this->AutomaticAxes << "\n";
+  os << indent << "UsedAxes: " << this->UsedAxes[0] << " " << this->UsedAxes[1] << " "
+     << this->UsedAxes[2] << "\n";
+  os << indent << "NumberOfGivenDepthBufferPairs: " << this->GetNumberOfGivenDepthBufferPairs()
+     << "\n";
   os << indent << "NumberOfViews: " << this->GetNumberOfViews() << "\n";
   os << indent << "OutputMode: " << modes[this->OutputMode] << "\n";
   os << indent << "Connectivity: " << this->Connectivity << "\n";

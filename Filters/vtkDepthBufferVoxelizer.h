@@ -16,6 +16,7 @@
  *
  * Its cost is that of drawing the scene, and then depends on the number of voxels alone. For
  * several resolutions run it at each, or vtkVoxelDensityNormals with Downsample on the finest.
+ * Progress is reported and abort honoured between buffers.
  *
  * <b>Limits.</b> What no buffer sees is filled: cavities inside, and hollows that are hidden along
  * all axes. What is convex, or convex along each column of one of the axes (a torus along its axis
@@ -24,18 +25,22 @@
  * half open rule of vtkSlicemapSolidVoxelizer holds along depth, and across it that of the driver.
  *
  * <b>Props</b> are drawn by VTK in the window of the context (RenderWindow) at the size of the
- * grid, and left as they were. A prop that other windows show gives its graphics resources there
- * back, and makes them anew when it is drawn there next; set RenderWindow to that window to avoid
- * it. A vtkVolume whose mapper blends iso-surfaces is seen as the level sets that its property
- * names, contoured on the CPU; cropping by its mapper is ignored. What clipping planes cut open is
- * open: look along axes that lie in the cut.
+ * grid, and left as they were. Their
+ * bounds are those that they tell; set ModelBounds where a shader moves them beyond. A prop that
+ * other windows show gives its graphics resources there back, and makes them anew when it is drawn
+ * there next; set RenderWindow to that window to avoid it. A vtkVolume whose mapper blends
+ * iso-surfaces is seen as the level sets that its property names, contoured on the CPU: such
+ * mappers write no depth, and what they give by RenderToImage are the places of samples behind the
+ * surface. Cropping by its mapper is ignored. What clipping planes cut open is open: look along
+ * axes that lie in the cut.
  *
  * <b>Grid.</b> That of vtkVoxelizer, where the bounds are those of the input and of all props.
  * Backend is of no consequence.
  *
- * <b>Errors.</b> Those of vtkVoxelizer; neither an input nor a prop; a prop that is invisible, has
- * no bounds, or is translucent; a volume whose mapper does not blend iso-surfaces; a renderer in
- * another window than RenderWindow; no axis; buffers larger than OpenGL allows; a view without a
+ * <b>Errors.</b> Those of vtkVoxelizer; no input, no prop and no given buffers; a prop that is
+ * invisible, has no bounds, or is translucent; a volume whose mapper does not blend iso-surfaces; a
+ * renderer in another window than RenderWindow; no axis; buffers larger than OpenGL allows; given
+ * buffers of another size than the grid's, or of several components; a view without a
  * direction; a Connectivity other than 4 and 8; Density without HostOutput.
  *
  * @sa vtkSlicemapSolidVoxelizer vtkHybridSurfaceVoxelizer
@@ -98,6 +103,27 @@ public:
 
   ///@{
   /**
+   * When on, one of Axes does for all of them where it tells everything: where each column of
+   * voxels along it crosses the surface never or exactly twice. So it is for convex meshes along
+   * every axis, and for such as a torus along its axis of symmetry (section 2.3 of the paper). This
+   * is decided by counting the crossings of every column in the stencil while the near side is
+   * drawn, the axes with the fewest pixels first, so that there are never more draws than without.
+   * What counts are the samples that voxels are made from, not the mesh: a mesh with holes may thus
+   * become a solid that three axes would not find, and where columns run along faces, rounding may
+   * rule out an axis that would have done. Along x filling is fastest.
+   *
+   * It is for meshes on the input port alone: with props, with Density, which is better the more
+   * axes there are, and where each of Axes hides something, all of Axes are used. UsedAxes are the
+   * axes of the last run. Default: off.
+   */
+  vtkSetMacro(AutomaticAxes, bool);
+  vtkGetMacro(AutomaticAxes, bool);
+  vtkBooleanMacro(AutomaticAxes, bool);
+  vtkGetVector3Macro(UsedAxes, bool);
+  ///@}
+
+  ///@{
+  /**
    * More pairs of buffers, which look along any direction in world coordinates, and carve what the
    * axes can't see into. Their pixels are as large as the smallest spacing. A cavity keeps a margin
    * of a pixel or two, so that no voxel is lost to a slope or to a ridge between pixels (up to 60
@@ -154,14 +180,41 @@ public:
   bool GetDepthBuffer(int pair, int side, vtkImageData* image);
   ///@}
 
+  ///@{
+  /**
+   * For sculpting: pairs of buffers along an index axis, 0 to 2, that come from elsewhere, as
+   * GetDepthBuffer gives them: from an earlier run of this filter or of another one on the same
+   * grid, or worked on as the images they are. Voxels are those between these and all other pairs.
+   * The images are referenced. Without input and props the given pairs alone make the voxels, and
+   * Axes does not matter; the grid must be set then. Each needs one component and as many pixels as
+   * there are columns; depths that are not finite stand for nothing. Default: none.
+   *
+   * A result that views carved is intersected with another one by vtkVoxelBoolean.
+   */
+  void AddDepthBuffers(int axis, vtkImageData* nearSide, vtkImageData* farSide);
+  void RemoveAllDepthBuffers();
+  int GetNumberOfGivenDepthBufferPairs();
+  ///@}
+
+  /**
+   * How many depth buffers this filter has drawn so far. Buffers stay as long as scene and grid are
+   * what they were: another OutputMode or Connectivity, fewer axes or views, another part of the
+   * grid or given buffers draw nothing, one more axis or view draws two.
+   */
+  int GetNumberOfBufferDraws();
+
   /**
    * How much of the last Solid, in cubes of world units, is no solid of the input by parity: the
    * cavities that no buffer sees. The input must be a closed mesh; it is voxelized once more. -1
-   * without a run, and with props, which parity knows nothing of.
+   * without a run, and with props or given buffers, which parity knows nothing of.
    */
   double GetHiddenVolumeEstimate();
 
   vtkMTimeType GetMTime() override;
+
+#ifndef __VTK_WRAP__
+  std::int64_t EstimateBytes(const vtkVoxelGrid& part) override;
+#endif
 
 protected:
   vtkDepthBufferVoxelizer();
@@ -169,9 +222,12 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   bool GetInputBounds(vtkDataObject* input, double bounds[6]) override;
-  void Prepare(const vtkVoxelGrid& whole) override;
+  bool Prepare(const vtkVoxelGrid& whole) override;
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
-  bool NeedsExactTriangulation() override { return true; }
+  bool NeedsExactTriangulation() override
+  {
+    return true;
+  }
   bool AddArrays(
     vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkDataSetAttributes* voxels) override;
   std::int64_t GetBytesOfArrays() override;
@@ -182,9 +238,15 @@ private:
 
   void CheckParameters();
   std::vector<vtkProp*> GetCheckedProps();
-  void MakeBuffers(const vtkVoxelGrid& whole);
+  bool HasGivenOnly();
+  bool ChoosesAxes(bool hasProps) const;
+  void MakeBuffers(const vtkVoxelGrid& whole, const std::vector<vtkProp*>& props);
+  bool DrawMesh(const vtkVoxelMesh& mesh);
+  bool ReportDraw();
 
   bool Axes[3] = { true, true, true };
+  bool AutomaticAxes = false;
+  bool UsedAxes[3] = { false, false, false };
   int OutputMode = OUTPUT_MODE_SOLID;
   int Connectivity = 4;
 

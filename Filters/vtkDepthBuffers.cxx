@@ -11,7 +11,9 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
+#include "vtkDepthBlocksGLSL.h"
 #include "vtkDepthCarveGLSL.h"
+#include "vtkDepthCopyGLSL.h"
 #include "vtkDepthDensityGLSL.h"
 #include "vtkDepthMeshVertexGLSL.h"
 #include "vtkDepthRangesGLSL.h"
@@ -25,6 +27,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -38,15 +41,20 @@ constexpr unsigned int NearUnit = 0;
 constexpr unsigned int FarUnit = 1;
 constexpr unsigned int VoxelsUnit = 2;
 constexpr unsigned int RangesUnit = 0;
+constexpr unsigned int ColumnsUnit = 0;
 constexpr unsigned int MeshUnit = 0;
 constexpr int WordsPerQuad = 4;
 constexpr int VoxelsPerQuad = 4;
+constexpr int ColumnsPerWord = 32;
 
 /// As in vtkDepthDensity.glsl.
 constexpr float OneOfDensity = 16777216.0f;
 
 /// A buffer of 128 MiB, which all OpenGL has.
 constexpr std::int64_t MostVoxelsOfDensity = std::int64_t(1) << 25;
+
+constexpr GLfloat DepthOfNothing = 1.0f;
+constexpr GLuint StencilBits = 0xff;
 
 /// Ranges of voxels are pairs of so many bits.
 constexpr int LargestLength = 65535;
@@ -63,18 +71,22 @@ std::array<int, 3> ToArray(const glm::ivec3& v)
   return { v.x, v.y, v.z };
 }
 
-/// An integer for each column of a view, from a fragment shader.
-Texture MakeColumns(const vtkVoxelGL::Context& context, const std::string& name,
-  const std::string& source, const Program::Defines& defines, const vtkDepthView& view,
+/// An image of integers, one, two or four a pixel, from a fragment shader.
+Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
+  const std::string& source, const Program::Defines& defines, GLenum format, const glm::ivec2& size,
   const std::function<void(Program&)>& bind)
 {
-  Texture columns(context, GL_TEXTURE_2D);
-  if (!columns.Allocate2D(GL_R32UI, view.Size.x, view.Size.y, GL_RED_INTEGER, GL_UNSIGNED_INT))
+  const GLenum components = format == GL_R32UI ? GL_RED_INTEGER
+    : format == GL_RG32UI                      ? GL_RG_INTEGER
+                                               : GL_RGBA_INTEGER;
+  Texture image(context, GL_TEXTURE_2D);
+  const bool allocated = image.Allocate2D(format, size.x, size.y, components, GL_UNSIGNED_INT);
+  if (!allocated)
   {
     throw std::runtime_error("OpenGL has no memory left for columns of voxels. Use fewer voxels.");
   }
   Framebuffer framebuffer(context);
-  framebuffer.Attach(GL_COLOR_ATTACHMENT0, columns);
+  framebuffer.Attach(GL_COLOR_ATTACHMENT0, image);
   framebuffer.SetDrawBuffers(1);
   vtkVoxelGL::VertexArray vertices(context);
   vertices.Bind();
@@ -82,9 +94,9 @@ Texture MakeColumns(const vtkVoxelGL::Context& context, const std::string& name,
     { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } }, { GL_FRAGMENT_SHADER, { source } } });
   program.Use();
   bind(program);
-  glViewport(0, 0, view.Size.x, view.Size.y);
+  glViewport(0, 0, size.x, size.y);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  return columns;
+  return image;
 }
 
 /// Maps the points of a mesh to view coordinates; see vtkRasterMeshFetch.glsl.
@@ -108,14 +120,23 @@ void SetView(Program& program, const glm::dmat4& worldToView)
 struct vtkDepthBuffers::Columns
 {
   int Axis;
-  Texture Ranges;
-  Texture Shells; ///< may be missing
+  int Rows;     ///< of columns
+  Texture Ends; ///< of vtkDepthRanges.glsl, or of vtkDepthShells.glsl
 };
 
 void vtkDepthBuffers::Start(vtkVoxelGL::Context context)
 {
-  this->Pairs.clear();
+  this->Known.clear();
+  this->Drawn.clear();
+  this->Effective.clear();
   this->Context = std::move(context);
+}
+
+bool vtkDepthBuffers::IsIn(const vtkVoxelGL::Context& context) const
+{
+  return this->Context == context &&
+    std::all_of(this->Known.begin(), this->Known.end(),
+      [](const auto& pair) { return pair->NearDepth && pair->FarDepth; });
 }
 
 void vtkDepthBuffers::CheckSize(const vtkDepthView& view) const
@@ -136,15 +157,19 @@ void vtkDepthBuffers::CheckSize(const vtkDepthView& view) const
   }
 }
 
-Framebuffer vtkDepthBuffers::MakeBuffer(const vtkDepthView& view, Texture& depth) const
+Framebuffer vtkDepthBuffers::MakeBuffer(
+  const vtkDepthView& view, bool hasStencil, Texture& depth) const
 {
   depth = Texture(this->Context, GL_TEXTURE_2D);
-  const bool allocated =
-    depth.Allocate2D(GL_DEPTH_COMPONENT32F, view.Size.x, view.Size.y, GL_DEPTH_COMPONENT, GL_FLOAT);
+  const bool allocated = hasStencil
+    ? depth.Allocate2D(GL_DEPTH32F_STENCIL8, view.Size.x, view.Size.y, GL_DEPTH_STENCIL,
+        GL_FLOAT_32_UNSIGNED_INT_24_8_REV)
+    : depth.Allocate2D(
+        GL_DEPTH_COMPONENT32F, view.Size.x, view.Size.y, GL_DEPTH_COMPONENT, GL_FLOAT);
   Framebuffer framebuffer(this->Context);
   if (allocated)
   {
-    framebuffer.Attach(GL_DEPTH_ATTACHMENT, depth);
+    framebuffer.Attach(hasStencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, depth);
   }
   framebuffer.SetDrawBuffers(0);
   glReadBuffer(GL_NONE);
@@ -154,52 +179,238 @@ Framebuffer vtkDepthBuffers::MakeBuffer(const vtkDepthView& view, Texture& depth
       std::to_string(view.Size.x) + " x " + std::to_string(view.Size.y) +
       " pixels. Use fewer voxels.");
   }
-  const GLfloat nothing = 1.0f;
-  glClearBufferfv(GL_DEPTH, 0, &nothing);
   return framebuffer;
 }
 
-void vtkDepthBuffers::Add(int axis, const vtkDepthView& view)
+std::shared_ptr<vtkDepthBuffers::Pair> vtkDepthBuffers::MakePair(
+  const Direction& direction, bool hasStencil) const
 {
+  const auto& [axis, view] = direction;
   this->CheckSize(view);
-  Pair pair;
-  pair.Axis = axis;
-  pair.View = view;
-  pair.Near = this->MakeBuffer(view, pair.NearDepth);
-  pair.Far = this->MakeBuffer(view, pair.FarDepth);
-  this->Pairs.push_back(std::move(pair));
+  auto pair = std::make_shared<Pair>();
+  pair->Axis = axis;
+  pair->View = view;
+  pair->Near = this->MakeBuffer(view, hasStencil, pair->NearDepth);
+  pair->Far = this->MakeBuffer(view, false, pair->FarDepth);
+  pair->HasStencil = hasStencil;
+  return pair;
 }
 
-void vtkDepthBuffers::Draw(const vtkVoxelMesh& mesh) const
+std::shared_ptr<vtkDepthBuffers::Pair> vtkDepthBuffers::Find(
+  const Direction& direction, bool counted) const
 {
-  Program& program = vtkVoxelGetProgram(this->Context, "vtkDepthMesh", mesh.GetDefines(),
-    { { GL_VERTEX_SHADER, { vtkRasterMeshFetchGLSL, vtkDepthMeshVertexGLSL } } });
-  program.Use();
-  mesh.Bind(program, MeshUnit);
-  vtkVoxelGL::VertexArray vertices(this->Context);
-  vertices.Bind();
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_DEPTH_CLAMP);
-  for (const Pair& pair : this->Pairs)
+  const auto found = std::find_if(this->Known.begin(), this->Known.end(),
+    [&](const auto& pair)
+    {
+      return pair->Axis == direction.first && pair->View == direction.second &&
+        (!counted || pair->HasStencil);
+    });
+  return found == this->Known.end() ? nullptr : *found;
+}
+
+void vtkDepthBuffers::Use(const std::vector<Direction>& directions)
+{
+  this->Drawn.clear();
+  this->Effective.clear();
+  for (const Direction& direction : directions)
   {
-    const glm::ivec3 viewport = pair.View.GetViewport();
-    SetView(program, pair.View.WorldToView);
-    program.Set("Viewport", ToArray(glm::vec3(viewport)));
-    glViewport(0, 0, viewport.x, viewport.y);
+    auto pair = this->Find(direction, false);
+    if (!pair)
+    {
+      pair = this->MakePair(direction, false);
+      this->Known.push_back(pair);
+    }
     for (const Side side : { Side::Near, Side::Far })
     {
-      pair.GetFramebuffer(side).Bind();
-      program.Set("Side", side == Side::Near ? 1.0f : -1.0f);
-      glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.GetNumberOfTriangles()) * 3);
+      if (!pair->IsDrawn(side))
+      {
+        pair->GetFramebuffer(side).Bind();
+        glClearBufferfv(GL_DEPTH, 0, &DepthOfNothing);
+      }
+    }
+    this->Drawn.push_back(std::move(pair));
+  }
+}
+
+bool vtkDepthBuffers::Draw(const vtkVoxelMesh* mesh, const GoOn& goOn)
+{
+  for (const auto& pair : this->Drawn)
+  {
+    for (const Side side : { Side::Near, Side::Far })
+    {
+      if (!pair->IsDrawn(side))
+      {
+        this->DrawSide(mesh, *pair, side);
+        if (!goOn())
+        {
+          return false;
+        }
+      }
     }
   }
+  return true;
+}
+
+void vtkDepthBuffers::DrawSide(const vtkVoxelMesh* mesh, Pair& pair, Side side)
+{
+  ++this->NumberOfDraws;
+  (side == Side::Near ? pair.IsNearDrawn : pair.IsFarDrawn) = true;
+  if (!mesh)
+  {
+    return;
+  }
+  Program& program = vtkVoxelGetProgram(this->Context, "vtkDepthMesh", mesh->GetDefines(),
+    { { GL_VERTEX_SHADER, { vtkRasterMeshFetchGLSL, vtkDepthMeshVertexGLSL } } });
+  program.Use();
+  mesh->Bind(program, MeshUnit);
+  vtkVoxelGL::VertexArray vertices(this->Context);
+  vertices.Bind();
+  mesh->BindIndices();
+  const glm::ivec3 viewport = pair.View.GetViewport();
+  SetView(program, pair.View.WorldToView);
+  program.Set("Viewport", ToArray(glm::vec3(viewport)));
+  program.Set("Side", side == Side::Near ? 1.0f : -1.0f);
+  glViewport(0, 0, viewport.x, viewport.y);
+  pair.GetFramebuffer(side).Bind();
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_DEPTH_CLAMP);
+  glDrawElements(
+    GL_TRIANGLES, static_cast<GLsizei>(mesh->GetNumberOfTriangles()) * 3, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
 }
 
+std::vector<vtkDepthBuffers::Direction>::const_iterator vtkDepthBuffers::FindSufficient(
+  const std::vector<Direction>& directions, const vtkVoxelMesh& mesh)
+{
+  std::vector<std::vector<Direction>::const_iterator> order;
+  for (auto direction = directions.begin(); direction != directions.end(); ++direction)
+  {
+    if (direction->first != Oblique)
+    {
+      order.push_back(direction);
+    }
+  }
+  const auto pixels = [](const auto& direction)
+  { return std::int64_t(direction->second.Size.x) * direction->second.Size.y; };
+  std::stable_sort(order.begin(), order.end(),
+    [&](const auto& a, const auto& b) { return pixels(a) < pixels(b); });
+  const auto isSufficient = [&](const auto& direction)
+  {
+    auto pair = this->Find(*direction, true);
+    if (!pair)
+    {
+      pair = this->MakePair(*direction, true);
+      this->Known.insert(this->Known.begin(), pair);
+    }
+    if (pair->Crossed == Crossings::NotCounted)
+    {
+      pair->Near.Bind();
+      glClearBufferfi(GL_DEPTH_STENCIL, 0, DepthOfNothing, 0);
+      glEnable(GL_STENCIL_TEST);
+      glStencilFunc(GL_ALWAYS, 0, StencilBits);
+      glStencilOp(GL_INCR, GL_INCR, GL_INCR);
+      this->DrawSide(&mesh, *pair, Side::Near);
+      pair->Crossed = this->CountCrossings(*pair);
+      glDisable(GL_STENCIL_TEST);
+    }
+    return pair->Crossed == Crossings::NoneOrTwo;
+  };
+  const auto found = std::find_if(order.begin(), order.end(), isSufficient);
+  return found == order.end() ? directions.end() : *found;
+}
+
+vtkDepthBuffers::Crossings vtkDepthBuffers::CountCrossings(const Pair& pair) const
+{
+  // Draws over the columns that were crossed, and not twice.
+  Program& program = vtkVoxelGetProgram(
+    this->Context, "vtkDepthEverywhere", {}, { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } } });
+  program.Use();
+  vtkVoxelGL::VertexArray vertices(this->Context);
+  vertices.Bind();
+  pair.Near.Bind();
+  glViewport(0, 0, pair.View.Size.x, pair.View.Size.y);
+  constexpr GLint twice = 2;
+  glStencilFunc(GL_EQUAL, twice, StencilBits);
+  glStencilOp(GL_KEEP, GL_ZERO, GL_ZERO);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glStencilFunc(GL_NOTEQUAL, 0, StencilBits);
+  vtkVoxelGL::Query others(this->Context);
+  others.Begin(GL_SAMPLES_PASSED);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  others.End();
+  return others.GetResult() == 0 ? Crossings::NoneOrTwo : Crossings::Others;
+}
+
+std::shared_ptr<vtkDepthBuffers::Pair> vtkDepthBuffers::Merge(const Pairs& pairs) const
+{
+  const auto& first = *pairs.front();
+  auto merged = this->MakePair({ first.Axis, first.View }, false);
+  Program& program = vtkVoxelGetProgram(this->Context, "vtkDepthCopy", {},
+    { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } },
+      { GL_FRAGMENT_SHADER, { vtkDepthCopyGLSL } } });
+  program.Use();
+  program.Set("Depth", int(NearUnit));
+  vtkVoxelGL::VertexArray vertices(this->Context);
+  vertices.Bind();
+  glViewport(0, 0, first.View.Size.x, first.View.Size.y);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  for (const Side side : { Side::Near, Side::Far })
+  {
+    merged->GetFramebuffer(side).Bind();
+    const GLfloat nearest = 0.0f;
+    glClearBufferfv(GL_DEPTH, 0, &nearest);
+    for (const auto& pair : pairs)
+    {
+      pair->GetDepth(side).Bind(NearUnit);
+      glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+  }
+  glDepthFunc(GL_LESS);
+  glDisable(GL_DEPTH_TEST);
+  return merged;
+}
+
+void vtkDepthBuffers::Intersect(const std::vector<Given>& others)
+{
+  this->Effective.clear();
+  for (const int axis : { 0, 1, 2 })
+  {
+    Pairs along;
+    std::copy_if(this->Drawn.begin(), this->Drawn.end(), std::back_inserter(along),
+      [&](const auto& pair) { return pair->Axis == axis; });
+    for (const Given& given : others)
+    {
+      if (given.Axis == axis)
+      {
+        auto pair = this->MakePair({ axis, given.View }, false);
+        const glm::ivec3 size = given.View.Size;
+        const bool uploaded = pair->NearDepth.Allocate2D(GL_DEPTH_COMPONENT32F, size.x, size.y,
+                                GL_DEPTH_COMPONENT, GL_FLOAT, given.Near.data()) &&
+          pair->FarDepth.Allocate2D(
+            GL_DEPTH_COMPONENT32F, size.x, size.y, GL_DEPTH_COMPONENT, GL_FLOAT, given.Far.data());
+        if (!uploaded)
+        {
+          throw std::runtime_error(
+            "OpenGL has no memory left for depth buffers. Use fewer voxels.");
+        }
+        along.push_back(std::move(pair));
+      }
+    }
+    if (!along.empty())
+    {
+      this->Effective.push_back(along.size() == 1 ? along.front() : this->Merge(along));
+    }
+  }
+  std::copy_if(this->Drawn.begin(), this->Drawn.end(), std::back_inserter(this->Effective),
+    [](const auto& pair) { return pair->Axis == Oblique; });
+}
+
 Texture vtkDepthBuffers::MakeRanges(const Pair& pair) const
 {
-  return MakeColumns(this->Context, "vtkDepthRanges", vtkDepthRangesGLSL, {}, pair.View,
+  return MakeImage(this->Context, "vtkDepthRanges", vtkDepthRangesGLSL, {}, GL_R32UI,
+    pair.View.Size,
     [&](Program& program)
     {
       pair.NearDepth.Bind(NearUnit);
@@ -214,8 +425,8 @@ Texture vtkDepthBuffers::MakeRanges(const Pair& pair) const
 Texture vtkDepthBuffers::MakeShells(
   const Pair& pair, const Texture& ranges, Neighbours neighbours) const
 {
-  return MakeColumns(this->Context, "vtkDepthShells", vtkDepthShellsGLSL,
-    { { "NEIGHBOURS", std::to_string(static_cast<int>(neighbours)) } }, pair.View,
+  return MakeImage(this->Context, "vtkDepthShells", vtkDepthShellsGLSL,
+    { { "NEIGHBOURS", std::to_string(static_cast<int>(neighbours)) } }, GL_RG32UI, pair.View.Size,
     [&](Program& program)
     {
       ranges.Bind(RangesUnit);
@@ -224,28 +435,41 @@ Texture vtkDepthBuffers::MakeShells(
     });
 }
 
+Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, int first, int count) const
+{
+  return MakeImage(this->Context, "vtkDepthBlocks", vtkDepthBlocksGLSL, {}, GL_RGBA32UI,
+    { (count + ColumnsPerWord - 1) / ColumnsPerWord, columns.Rows },
+    [&](Program& program)
+    {
+      columns.Ends.Bind(ColumnsUnit);
+      program.Set("Columns", int(ColumnsUnit));
+      program.Set("First", first);
+      program.Set("Count", count);
+    });
+}
+
 bool vtkDepthBuffers::HasObliquePairs() const
 {
-  return std::any_of(
-    this->Pairs.begin(), this->Pairs.end(), [](const Pair& pair) { return pair.Axis == Oblique; });
+  return std::any_of(this->Effective.begin(), this->Effective.end(),
+    [](const auto& pair) { return pair->Axis == Oblique; });
 }
 
 void vtkDepthBuffers::FillSolid(vtkSlicemap* target, const glm::ivec3& first) const
 {
   std::vector<Columns> columns;
-  for (const Pair& pair : this->Pairs)
+  for (const auto& pair : this->Effective)
   {
-    if (pair.Axis != Oblique)
+    if (pair->Axis != Oblique)
     {
-      columns.push_back({ pair.Axis, this->MakeRanges(pair), {} });
+      columns.push_back({ pair->Axis, pair->View.Size.y, this->MakeRanges(*pair) });
     }
   }
-  this->Fill(target, first, columns);
-  for (const Pair& pair : this->Pairs)
+  this->Fill(target, first, columns, {});
+  for (const auto& pair : this->Effective)
   {
-    if (pair.Axis == Oblique)
+    if (pair->Axis == Oblique)
     {
-      this->Carve(target, pair);
+      this->Carve(target, *pair);
     }
   }
 }
@@ -260,13 +484,12 @@ void vtkDepthBuffers::FillSurface(
     return;
   }
   std::vector<Columns> columns;
-  for (const Pair& pair : this->Pairs)
+  for (const auto& pair : this->Effective)
   {
-    Columns column{ pair.Axis, this->MakeRanges(pair), {} };
-    column.Shells = this->MakeShells(pair, column.Ranges, neighbours);
-    columns.push_back(std::move(column));
+    columns.push_back({ pair->Axis, pair->View.Size.y,
+      this->MakeShells(*pair, this->MakeRanges(*pair), neighbours) });
   }
-  this->Fill(target, first, columns);
+  this->Fill(target, first, columns, { { "SHELLS", "1" } });
 }
 
 void vtkDepthBuffers::Carve(vtkSlicemap* target, const Pair& pair) const
@@ -328,12 +551,12 @@ void vtkDepthBuffers::ReadDensity(
 {
   Program::Defines defines;
   glm::vec3 depths(1.0f);
-  for (const Pair& pair : this->Pairs)
+  for (const auto& pair : this->Effective)
   {
-    if (pair.Axis != Oblique)
+    if (pair->Axis != Oblique)
     {
-      defines[std::string("HAS_") + AxisNames[pair.Axis]] = "1";
-      depths[pair.Axis] = static_cast<float>(pair.View.GetViewport().z);
+      defines[std::string("HAS_") + AxisNames[pair->Axis]] = "1";
+      depths[pair->Axis] = static_cast<float>(pair->View.GetViewport().z);
     }
   }
   const vtkSlicemapQuadKernel kernel("vtkDepthDensity", vtkDepthDensityGLSL, std::move(defines));
@@ -357,18 +580,17 @@ void vtkDepthBuffers::ReadDensity(
         program.Set("Size", ToArray(slab));
         program.Set("DepthOfBuffers", ToArray(depths));
         int unit = 0;
-        for (const Pair& pair : this->Pairs)
+        for (const auto& pair : this->Effective)
         {
-          if (pair.Axis == Oblique)
+          if (pair->Axis == Oblique)
           {
             continue;
           }
           for (const Side side : { Side::Near, Side::Far })
           {
             const std::string name = side == Side::Near ? "Near" : "Far";
-            (side == Side::Near ? pair.NearDepth : pair.FarDepth)
-              .Bind(static_cast<unsigned int>(unit));
-            program.Set((name + AxisNames[pair.Axis]).c_str(), unit++);
+            pair->GetDepth(side).Bind(static_cast<unsigned int>(unit));
+            program.Set((name + AxisNames[pair->Axis]).c_str(), unit++);
           }
         }
       });
@@ -398,24 +620,24 @@ std::vector<float> vtkDepthBuffers::ReadDepth(const Pair& pair, Side side) const
   return depths;
 }
 
-void vtkDepthBuffers::Fill(
-  vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns) const
+void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
+  const std::vector<Columns>& columns, Program::Defines defines) const
 {
-  Program::Defines defines;
+  const glm::ivec3 size = target->GetGrid().GetDimensions();
+  std::vector<Texture> blocks;
+  std::transform(columns.begin(), columns.end(), std::back_inserter(blocks),
+    [&](const Columns& c)
+    { return c.Axis == 0 ? Texture() : this->MakeBlocks(c, first.x, size.x); });
   for (const Columns& column : columns)
   {
     defines[std::string("HAS_") + AxisNames[column.Axis]] = "1";
-    if (column.Shells)
-    {
-      defines["SHELLS"] = "1";
-    }
   }
   const vtkSlicemapQuadKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
   kernel.Run(this->Context, target,
     [&](Program& program)
     {
       program.Set("First", ToArray(first));
-      program.Set("Size", ToArray(target->GetGrid().GetDimensions()));
+      program.Set("Size", ToArray(size));
       program.Set(
         "QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
       int unit = 0;
@@ -424,12 +646,12 @@ void vtkDepthBuffers::Fill(
         texture.Bind(static_cast<unsigned int>(unit));
         program.Set(name.c_str(), unit++);
       };
-      for (const Columns& column : columns)
+      for (std::size_t i = 0; i < columns.size(); ++i)
       {
-        set(column.Ranges, std::string("Ranges") + AxisNames[column.Axis]);
-        if (column.Shells)
+        set(columns[i].Ends, std::string("Columns") + AxisNames[columns[i].Axis]);
+        if (blocks[i])
         {
-          set(column.Shells, std::string("Shells") + AxisNames[column.Axis]);
+          set(blocks[i], std::string("Blocks") + AxisNames[columns[i].Axis]);
         }
       }
     });

@@ -15,7 +15,10 @@
 #include "vtkDepthView.h"
 #include "vtkVoxelGLObjects.h"
 
+#include <functional>
 #include <glm/glm.hpp>
+#include <memory>
+#include <utility>
 #include <vector>
 
 class vtkSlicemap;
@@ -34,6 +37,14 @@ public:
     Eight = 8
   };
 
+  /// How often the columns of a view are crossed by what was drawn.
+  enum class Crossings
+  {
+    NotCounted,
+    NoneOrTwo, ///< in each column: a single range of voxels is inside
+    Others
+  };
+
   /// What is nearest to both sides of a view. Depth is 1 where there is nothing.
   struct Pair
   {
@@ -43,24 +54,72 @@ public:
     vtkVoxelGL::Framebuffer Far;
     vtkVoxelGL::Texture NearDepth;
     vtkVoxelGL::Texture FarDepth;
+    bool IsNearDrawn = false;
+    bool IsFarDrawn = false;
+    bool HasStencil = false;
+    Crossings Crossed = Crossings::NotCounted;
 
     const vtkVoxelGL::Framebuffer& GetFramebuffer(Side side) const
     {
       return side == Side::Near ? this->Near : this->Far;
     }
+    const vtkVoxelGL::Texture& GetDepth(Side side) const
+    {
+      return side == Side::Near ? this->NearDepth : this->FarDepth;
+    }
+    bool IsDrawn(Side side) const
+    {
+      return side == Side::Near ? this->IsNearDrawn : this->IsFarDrawn;
+    }
   };
+  using Pairs = std::vector<std::shared_ptr<Pair>>;
   static constexpr int Oblique = -1;
+
+  /// A direction of a pair, an index axis or Oblique, and the view.
+  using Direction = std::pair<int, vtkDepthView>;
+
+  /// Depths of a pair along an axis that come from elsewhere, pixel by pixel, as OpenGL stores
+  /// them.
+  struct Given
+  {
+    int Axis;
+    vtkDepthView View;
+    std::vector<float> Near;
+    std::vector<float> Far;
+  };
 
   /// Forgets all pairs.
   void Start(vtkVoxelGL::Context context);
 
-  /// Adds a pair of buffers in which there is nothing.
-  void Add(int axis, const vtkDepthView& view);
+  /// Whether the pairs are still there, in this context.
+  bool IsIn(const vtkVoxelGL::Context& context) const;
 
-  const std::vector<Pair>& GetPairs() const { return this->Pairs; }
+  /// From now on there are pairs in these directions, no others. What was drawn since Start is
+  /// kept, for later too; buffers that have to be drawn are empty.
+  void Use(const std::vector<Direction>& directions);
 
-  /// Draws a mesh into all buffers.
-  void Draw(const vtkVoxelMesh& mesh) const;
+  ///@{
+  /// Draws a mesh into all buffers that are not drawn yet, which then are; a null mesh draws
+  /// nothing. False when stopped, which leaves the present buffer undrawn.
+  using GoOn = std::function<bool()>;
+  bool Draw(const vtkVoxelMesh* mesh, const GoOn& goOn);
+  ///@}
+
+  /// One of the directions along axes from which the whole mesh can be told: it crosses each column
+  /// never or twice. The near sides are drawn one by one for that, those of fewer pixels first. The
+  /// end of `directions` when there is none.
+  std::vector<Direction>::const_iterator FindSufficient(
+    const std::vector<Direction>& directions, const vtkVoxelMesh& mesh);
+
+  /// Intersects the pairs in use with others, and puts them into the order of axes.
+  void Intersect(const std::vector<Given>& others);
+
+  /// Pairs that are to be drawn, and those that voxels are made from.
+  const Pairs& GetDrawnPairs() const { return this->Drawn; }
+  const Pairs& GetPairs() const { return this->Effective; }
+
+  /// How many buffers were drawn.
+  int GetNumberOfDraws() const { return this->NumberOfDraws; }
 
   ///@{
   /// Fills `target`, which is allocated and begins at voxel `first` of the grid that the views
@@ -81,18 +140,28 @@ private:
   struct Columns;
 
   void CheckSize(const vtkDepthView& view) const;
-  vtkVoxelGL::Framebuffer MakeBuffer(const vtkDepthView& view, vtkVoxelGL::Texture& depth) const;
+  vtkVoxelGL::Framebuffer MakeBuffer(
+    const vtkDepthView& view, bool hasStencil, vtkVoxelGL::Texture& depth) const;
+  std::shared_ptr<Pair> MakePair(const Direction& direction, bool hasStencil) const;
+  std::shared_ptr<Pair> Find(const Direction& direction, bool counted) const;
+  void DrawSide(const vtkVoxelMesh* mesh, Pair& pair, Side side);
+  Crossings CountCrossings(const Pair& pair) const;
+  std::shared_ptr<Pair> Merge(const Pairs& pairs) const;
   vtkVoxelGL::Texture MakeRanges(const Pair& pair) const;
   vtkVoxelGL::Texture MakeShells(
     const Pair& pair, const vtkVoxelGL::Texture& ranges, Neighbours neighbours) const;
+  vtkVoxelGL::Texture MakeBlocks(const Columns& columns, int first, int count) const;
   bool HasObliquePairs() const;
   void Carve(vtkSlicemap* target, const Pair& pair) const;
   void KeepBoundary(vtkSlicemap* target, Neighbours neighbours) const;
-  void Fill(
-    vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns) const;
+  void Fill(vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns,
+    vtkVoxelGL::Program::Defines defines) const;
 
   vtkVoxelGL::Context Context;
-  std::vector<Pair> Pairs;
+  Pairs Known;     // all since Start
+  Pairs Drawn;     // of these, those in use
+  Pairs Effective; // after Intersect
+  int NumberOfDraws = 0;
 };
 
 #endif

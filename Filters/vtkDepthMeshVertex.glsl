@@ -1,5 +1,5 @@
-// Draws the triangles of a mesh into a depth buffer, three vertices a triangle and no attributes.
-// Follows vtkRasterMeshFetch.glsl.
+// Draws the triangles of a mesh into a depth buffer; a vertex has no attributes, its index is that of the
+// point. Follows vtkRasterMeshFetch.glsl.
 //
 // Viewport  pixels of the viewport and length of the range of depths, powers of two
 // Side      1 when seen from the near side, -1 from the far side, where depth runs the other way
@@ -9,7 +9,6 @@ uniform float Side;
 
 void main()
 {
-  uint id = texelFetch(Triangles, gl_VertexID / 3)[gl_VertexID % 3];
-  vec3 clip = 2.0 * (fetchPoint(id) + 0.5) / Viewport - 1.0;
+  vec3 clip = 2.0 * (fetchPoint(uint(gl_VertexID)) + 0.5) / Viewport - 1.0;
   gl_Position = vec4(clip.xy, Side * clip.z, 1.0);
 }

@@ -17,13 +17,17 @@
 #include "vtkOpenGLState.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp.h"
+#include "vtkPropCollection.h"
+#include "vtkShaderProperty.h"
 #include "vtkSmartPointer.h"
+#include "vtkUniforms.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 #include "vtkVoxelContext.h"
 #include "vtkVoxelCurrentContext.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -200,6 +204,28 @@ void DrawSide(const std::vector<vtkProp*>& props, const vtkDepthBuffers::Pair& p
   renderer->SetRenderWindow(nullptr);
 }
 
+/// All sides that are not drawn yet; false when stopped.
+bool DrawAll(const std::vector<vtkProp*>& props, const vtkDepthBuffers& buffers,
+  vtkOpenGLRenderWindow* window, const std::function<bool()>& goOn)
+{
+  const SavedState saved(window->GetState());
+  for (const auto& pair : buffers.GetDrawnPairs())
+  {
+    for (const Side side : { Side::Near, Side::Far })
+    {
+      if (!pair->IsDrawn(side))
+      {
+        DrawSide(props, *pair, side, window);
+        if (!goOn())
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
 /// A volume is seen as the level sets that its property names.
 vtkSmartPointer<vtkActor> MakeLevelSets(vtkVolume* volume)
 {
@@ -268,9 +294,42 @@ void vtkDepthPropPainter::Check(vtkProp* prop)
   }
 }
 
-void vtkDepthPropPainter::Draw(
-  const std::vector<vtkProp*>& props, const vtkDepthBuffers& buffers, vtkVoxelContext* context)
+vtkMTimeType vtkDepthPropPainter::GetTime(vtkProp* prop)
 {
+  vtkMTimeType time = std::max(prop->GetMTime(), prop->GetRedrawMTime());
+  vtkShaderProperty* shaders = prop->GetShaderProperty();
+  time = std::max({ time, shaders->GetMTime(), shaders->GetShaderMTime() });
+  for (vtkUniforms* uniforms : { shaders->GetVertexCustomUniforms(),
+         shaders->GetGeometryCustomUniforms(), shaders->GetFragmentCustomUniforms() })
+  {
+    time = std::max({ time, uniforms->GetMTime(), uniforms->GetUniformListMTime() });
+  }
+  if (auto* volume = vtkVolume::SafeDownCast(prop))
+  {
+    time = std::max(time, volume->GetProperty()->GetIsoSurfaceValues()->GetMTime());
+  }
+  vtkNew<vtkPropCollection> parts;
+  prop->GetActors(parts);
+  prop->GetVolumes(parts);
+  vtkCollectionSimpleIterator iterator;
+  parts->InitTraversal(iterator);
+  while (vtkProp* part = parts->GetNextProp(iterator))
+  {
+    time = part == prop ? time : std::max(time, GetTime(part));
+  }
+  return time;
+}
+
+bool vtkDepthPropPainter::Draw(const std::vector<vtkProp*>& props, const vtkDepthBuffers& buffers,
+  vtkVoxelContext* context, const std::function<bool()>& goOn)
+{
+  const auto isDrawn = [](const auto& pair)
+  { return pair->IsDrawn(Side::Near) && pair->IsDrawn(Side::Far); };
+  const auto& pairs = buffers.GetDrawnPairs();
+  if (std::all_of(pairs.begin(), pairs.end(), isDrawn))
+  {
+    return true;
+  }
   vtkOpenGLRenderWindow* window = context->GetOpenGLRenderWindow();
   std::vector<vtkSmartPointer<vtkActor>> levelSets;
   std::vector<vtkProp*> drawn;
@@ -290,14 +349,7 @@ void vtkDepthPropPainter::Draw(
     }
   }
   const CurrentWindow current(context);
-  {
-    const SavedState saved(window->GetState());
-    for (const vtkDepthBuffers::Pair& pair : buffers.GetPairs())
-    {
-      DrawSide(drawn, pair, Side::Near, window);
-      DrawSide(drawn, pair, Side::Far, window);
-    }
-  }
+  const bool finished = DrawAll(drawn, buffers, window, goOn);
   for (const auto& actor : levelSets)
   {
     actor->ReleaseGraphicsResources(window);
@@ -309,4 +361,5 @@ void vtkDepthPropPainter::Draw(
       prop->ReleaseGraphicsResources(window);
     }
   }
+  return finished;
 }

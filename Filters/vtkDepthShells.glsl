@@ -6,12 +6,13 @@
 // Ranges  those of vtkDepthRanges.glsl
 // Size    columns along u and v, and voxels of each
 //
-// Shell  end of the surface at the near side, and in the upper 16 bits its begin at the far side
+// Column  the column's range, and its shell: the end of the surface at the near side, and in the upper 16
+//         bits its begin at the far side
 
 uniform usampler2D Ranges;
 uniform ivec3 Size;
 
-out uint Shell;
+out uvec2 Column;
 
 // Beyond the buffer there is nothing.
 ivec2 rangeAt(ivec2 pixel)
@@ -43,5 +44,6 @@ void main()
       begin = min(begin, other.y);
     }
   }
-  Shell = uint(clamp(end, 0, Size.z)) | uint(clamp(begin, 0, Size.z)) << 16;
+  Column = uvec2(texelFetch(Ranges, pixel, 0).r,
+    uint(clamp(end, 0, Size.z)) | uint(clamp(begin, 0, Size.z)) << 16);
 }

@@ -38,6 +38,11 @@ struct vtkDepthView
   /// From world to clip coordinates of OpenGL.
   glm::dmat4 GetWorldToClip(Side side) const;
 
+  bool operator==(const vtkDepthView& other) const
+  {
+    return this->WorldToView == other.WorldToView && this->Size == other.Size;
+  }
+
   glm::dmat4 WorldToView{ 1.0 };
   glm::ivec3 Size{ 1 };
 };

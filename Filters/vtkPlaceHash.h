@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file vtkPlaceHash.h
- * Private header: hashes of points, by which those at the same place are found.
+ * Private header: hashes of points, and those at the same place.
  */
 
 #ifndef vtkPlaceHash_h
 #define vtkPlaceHash_h
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 /// The finalizer of SplitMix64.
 inline std::uint64_t vtkHashBits(std::uint64_t x)
@@ -31,6 +34,31 @@ inline std::uint64_t vtkHashPlace(const double place[3])
     hash = vtkHashBits(hash + bits);
   }
   return hash;
+}
+
+/// For each point the first one at the same place.
+inline std::vector<std::uint32_t> vtkFindPlaces(const std::vector<std::array<double, 3>>& points)
+{
+  // A hash table with open addressing, half full at most.
+  constexpr std::uint32_t none = ~0u;
+  std::size_t capacity = 2;
+  while (capacity < 2 * points.size())
+  {
+    capacity *= 2;
+  }
+  std::vector<std::uint32_t> table(capacity, none);
+  std::vector<std::uint32_t> places(points.size());
+  for (std::uint32_t id = 0; id < points.size(); ++id)
+  {
+    std::size_t at = vtkHashPlace(points[id].data()) & (capacity - 1);
+    while (table[at] != none && points[table[at]] != points[id])
+    {
+      at = (at + 1) & (capacity - 1);
+    }
+    table[at] = std::min(table[at], id);
+    places[id] = table[at];
+  }
+  return places;
 }
 
 #endif

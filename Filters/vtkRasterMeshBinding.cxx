@@ -31,6 +31,19 @@ float GetRounded(double x)
   volatile float rounded = static_cast<float>(x);
   return rounded;
 }
+
+/// The values as floats, and what the rounding took away.
+template <std::size_t N>
+std::array<std::array<float, N>, 2> SplitToFloats(const double* values)
+{
+  std::array<std::array<float, N>, 2> parts;
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    parts[0][i] = GetRounded(values[i]);
+    parts[1][i] = static_cast<float>(values[i] - parts[0][i]);
+  }
+  return parts;
+}
 }
 
 vtkRasterMeshBinding::vtkRasterMeshBinding(
@@ -46,19 +59,14 @@ vtkRasterMeshBinding::vtkRasterMeshBinding(
   {
     this->VoxelsFromWorld[i] = glm::dvec3(
       indexFromWorld[0][order[i]], indexFromWorld[1][order[i]], indexFromWorld[2][order[i]]);
+    this->Offsets[i] = indexFromWorld[3][order[i]] - anchor[order[i]];
   }
 }
 
 void vtkRasterMeshBinding::Bind(vtkVoxelGL::Program& program, unsigned int unit) const
 {
   this->Mesh.Bind(program, unit);
-  std::array<float, 3> high;
-  std::array<float, 3> low;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    high[axis] = GetRounded(this->Anchor[axis]);
-    low[axis] = static_cast<float>(this->Anchor[axis] - high[axis]);
-  }
+  const auto [high, low] = SplitToFloats<3>(&this->Anchor[0]);
   program.Set("AnchorHigh", high);
   program.Set("AnchorLow", low);
   for (int i = 0; i < 3; ++i)
@@ -66,6 +74,18 @@ void vtkRasterMeshBinding::Bind(vtkVoxelGL::Program& program, unsigned int unit)
     const glm::vec3 row(this->VoxelsFromWorld[i]);
     const std::string name = "VoxelsFromWorld[" + std::to_string(i) + "]";
     program.Set(name.c_str(), std::array<float, 3>{ row.x, row.y, row.z });
+  }
+}
+
+void vtkRasterMeshBinding::BindPairs(vtkVoxelGL::Program& program) const
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::dvec4 row(this->VoxelsFromWorld[i], this->Offsets[i]);
+    const auto [high, low] = SplitToFloats<4>(&row[0]);
+    const std::string index = "[" + std::to_string(i) + "]";
+    program.Set(("RelativeFromWorld" + index).c_str(), high);
+    program.Set(("RelativeFromWorldLow" + index).c_str(), low);
   }
 }
 

@@ -29,6 +29,9 @@ public:
   /// Binds the textures from `unit` on and sets the uniforms; the program must be in use.
   void Bind(vtkVoxelGL::Program& program, unsigned int unit) const;
 
+  /// Sets the uniforms of vtkPairMeshFetch.glsl, beside those.
+  void BindPairs(vtkVoxelGL::Program& program) const;
+
   /// The first voxel of the grid, relative to the anchor, in the order of the axes.
   const glm::ivec3& GetFirstVoxel() const { return this->FirstVoxel; }
 
@@ -43,6 +46,7 @@ private:
   glm::ivec3 FirstVoxel;
   glm::dvec3 Anchor; ///< in world coordinates
   std::array<glm::dvec3, 3> VoxelsFromWorld;
+  std::array<double, 3> Offsets; ///< of the origin of the world from the anchor, in voxels
 };
 
 #endif

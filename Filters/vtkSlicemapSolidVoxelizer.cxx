@@ -15,6 +15,7 @@
 
 #include "vtkSolidVoteGLSL.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -141,10 +142,12 @@ bool vtkSlicemapSolidVoxelizer::Voxelize(
   }
   else
   {
-    const int axis =
-      this->ColumnAxis == COLUMN_AXIS_AUTO ? pass.GetCheapestAxis(mesh, grid) : this->ColumnAxis;
     const auto rule = this->FillRule == FILL_RULE_NON_ZERO ? vtkSolidPass::Rule::NonZero
                                                            : vtkSolidPass::Rule::Parity;
+    const vtkVoxelGrid& whole = this->GetGridOfWhole();
+    const int axis = pass.GetPossibleAxis(
+      this->ColumnAxis == COLUMN_AXIS_AUTO ? pass.GetCheapestAxis(mesh, whole) : this->ColumnAxis,
+      rule, whole);
     if (!pass.FillSolid(mesh, slicemap, axis, rule,
           [&](double done) { return this->ReportProgress(shareOfSolid * done); }))
     {
@@ -167,12 +170,21 @@ bool vtkSlicemapSolidVoxelizer::Voxelize(
     [&](double done) { return this->ReportProgress(shareOfSolid + (1.0 - shareOfSolid) * done); });
 }
 
+int vtkSlicemapSolidVoxelizer::GetNumberOfWorkSlicemaps()
+{
+  constexpr int ofVote = 5;
+  return this->FillRule == FILL_RULE_VOTE && this->Mode != MODE_BOUNDARY ? ofVote : 1;
+}
+
 void vtkSlicemapSolidVoxelizer::WarnOfLeaks()
 {
-  if (this->NumberOfLeakingColumns == 0)
+  // Once for all parts of an output.
+  const vtkMTimeType time = std::max(this->GetMTime(), this->GetInputDataObject(0, 0)->GetMTime());
+  if (this->NumberOfLeakingColumns == 0 || this->WarningTime == time)
   {
     return;
   }
+  this->WarningTime = time;
   const vtkVoxelMeshEdges edges(vtkVoxelMesh::GetLeaves(this->GetInputDataObject(0, 0)));
   vtkWarningMacro("The mesh is not closed: it has "
     << edges.GetNumberOfOpenEdges() << " open and " << edges.GetNumberOfNonManifoldEdges()

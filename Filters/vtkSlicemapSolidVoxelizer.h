@@ -114,8 +114,8 @@ public:
 
   /**
    * Columns of the last run in which crossings did not cancel: 0 for a closed mesh. Columns along
-   * the axis used; all three axes together with Vote. 0 with mode Boundary, which has no columns,
-   * and with CheckWatertight off.
+   * the axis used, in the part that was asked for; all three axes together with Vote. 0 with mode
+   * Boundary, which has no columns, and with CheckWatertight off.
    */
   vtkGetMacro(NumberOfLeakingColumns, vtkIdType);
 
@@ -125,6 +125,7 @@ protected:
 
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
   bool NeedsExactTriangulation() override { return this->Mode != MODE_CENTER; }
+  int GetNumberOfWorkSlicemaps() override;
 
 private:
   vtkSlicemapSolidVoxelizer(const vtkSlicemapSolidVoxelizer&) = delete;
@@ -137,6 +138,7 @@ private:
   int FillRule = FILL_RULE_PARITY;
   int ColumnAxis = COLUMN_AXIS_AUTO;
   vtkIdType NumberOfLeakingColumns = 0;
+  vtkMTimeType WarningTime = 0; // of filter and mesh that were warned of
 };
 
 #endif

@@ -80,12 +80,15 @@ vtkSolidComputePass::vtkSolidComputePass(vtkVoxelGL::Context context, Ties ties)
 bool vtkSolidComputePass::FillSolid(
   const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Rule rule, const Progress& progress)
 {
-  if (rule == Rule::Parity)
-  {
-    return this->FillParity(mesh, target, axis, progress);
-  }
-  const bool fits = target->GetNumberOfWords() * WordBytes <= GetStorageLimit();
-  return this->FillNonZero(mesh, target, axis == 2 && !fits ? 1 : axis, progress);
+  return rule == Rule::Parity ? this->FillParity(mesh, target, axis, progress)
+                              : this->FillNonZero(mesh, target, axis, progress);
+}
+
+int vtkSolidComputePass::GetPossibleAxis(int axis, Rule rule, const vtkVoxelGrid& whole) const
+{
+  // Columns along z need all words at once.
+  const bool fits = vtkSlicemap::GetNumberOfWords(whole) * WordBytes <= GetStorageLimit();
+  return rule == Rule::NonZero && axis == 2 && !fits ? 1 : axis;
 }
 
 bool vtkSolidComputePass::FillParity(

@@ -25,6 +25,7 @@ public:
     const Progress& progress) override;
   bool Touch(const vtkVoxelMesh& mesh, vtkSlicemap* target, TouchedVoxels operation,
     const Progress& progress) override;
+  int GetPossibleAxis(int axis, Rule rule, const vtkVoxelGrid& whole) const override;
   double EstimateCost(
     const vtkVoxelGrid& grid, int axis, const glm::dvec3& projectedAreas) const override;
 

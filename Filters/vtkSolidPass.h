@@ -89,6 +89,13 @@ public:
   virtual double EstimateCost(
     const vtkVoxelGrid& grid, int axis, const glm::dvec3& projectedAreas) const = 0;
 
+  /// The axis to take for `axis`, or another one where that can't be had on `whole`.
+  virtual int GetPossibleAxis(int axis, Rule, const vtkVoxelGrid& whole) const
+  {
+    static_cast<void>(whole);
+    return axis;
+  }
+
   int GetCheapestAxis(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid) const;
 
 protected:

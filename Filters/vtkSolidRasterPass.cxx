@@ -9,6 +9,10 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
+#include "vtkFloatPairsGLSL.h"
+#include "vtkPairMeshFetchGLSL.h"
+#include "vtkPairRasterFragmentGLSL.h"
+#include "vtkPairRasterVertexGLSL.h"
 #include "vtkRasterMeshFetchGLSL.h"
 #include "vtkSolidMasksGLSL.h"
 #include "vtkSolidRasterFragmentGLSL.h"
@@ -17,6 +21,7 @@
 #include "vtkTouchedColumnGLSL.h"
 #include "vtkTouchedRasterFragmentGLSL.h"
 #include "vtkTouchedRasterVertexGLSL.h"
+#include "vtkVoxelMeshDisplacementGLSL.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,8 +151,40 @@ public:
   vtkVoxelGL::Texture Masks;
 };
 
-vtkSolidRasterPass::vtkSolidRasterPass(vtkVoxelGL::Context context)
+/// How triangles are drawn.
+struct vtkSolidRasterPass::Stages
+{
+  const char* Name;
+  std::vector<std::string> Vertex;
+  std::vector<std::string> Fragment;
+  GLsizei VerticesPerTriangle;
+};
+
+vtkSolidRasterPass::Stages vtkSolidRasterPass::GetStages(Content content)
+{
+  switch (content)
+  {
+    case Content::Touched:
+      return { "vtkTouchedRaster", { vtkRasterMeshFetchGLSL, vtkTouchedRasterVertexGLSL },
+        { vtkSolidMasksGLSL, vtkTouchedColumnGLSL, vtkTouchedRasterFragmentGLSL }, 6 };
+    case Content::PairParity:
+      return { "vtkPairRaster",
+        { vtkVoxelMeshDisplacementGLSL, vtkRasterMeshFetchGLSL, vtkPairRasterVertexGLSL },
+        { vtkFloatPairsGLSL, vtkSolidMasksGLSL, vtkVoxelMeshDisplacementGLSL, vtkPairMeshFetchGLSL,
+          vtkPairRasterFragmentGLSL },
+        6 };
+    case Content::Winding:
+      return { "vtkSolidRaster", { vtkRasterMeshFetchGLSL, vtkSolidRasterVertexGLSL },
+        { vtkSolidRasterFragmentGLSL }, 3 };
+    default:
+      return { "vtkSolidRaster", { vtkRasterMeshFetchGLSL, vtkSolidRasterVertexGLSL },
+        { vtkSolidMasksGLSL, vtkSolidRasterFragmentGLSL }, 3 };
+  }
+}
+
+vtkSolidRasterPass::vtkSolidRasterPass(vtkVoxelGL::Context context, Ties ties)
   : Context(std::move(context))
+  , OnSurface(ties)
 {
 }
 
@@ -155,8 +192,9 @@ bool vtkSolidRasterPass::FillSolid(
   const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Rule rule, const Progress& progress)
 {
   this->StartColumnEnds(target, vtkColumnAxes(axis));
-  return this->Fill(
-    mesh, target, axis, rule == Rule::Parity ? Content::Parity : Content::Winding, progress);
+  const Content parity =
+    this->OnSurface == Ties::UpperInside ? Content::PairParity : Content::Parity;
+  return this->Fill(mesh, target, axis, rule == Rule::Parity ? parity : Content::Winding, progress);
 }
 
 bool vtkSolidRasterPass::Touch(
@@ -226,6 +264,7 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   Content content, Targets& targets)
 {
   const bool touched = content == Content::Touched;
+  const Stages stages = GetStages(content);
   Program::Defines defines{ { "TARGETS", std::to_string(targets.Count) }, { "REAL", "float" },
     { "REAL2", "vec2" }, { "REAL3", "vec3" } };
   defines.merge(mesh.GetDefines());
@@ -233,16 +272,8 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   {
     defines["WINDING"] = "1";
   }
-  using Sources = std::vector<std::string>;
-  const Sources vertex = touched ? Sources{ vtkRasterMeshFetchGLSL, vtkTouchedRasterVertexGLSL }
-                                 : Sources{ vtkRasterMeshFetchGLSL, vtkSolidRasterVertexGLSL };
-  const Sources fragment = touched
-    ? Sources{ vtkSolidMasksGLSL, vtkTouchedColumnGLSL, vtkTouchedRasterFragmentGLSL }
-    : targets.IsWinding ? Sources{ vtkSolidRasterFragmentGLSL }
-                        : Sources{ vtkSolidMasksGLSL, vtkSolidRasterFragmentGLSL };
-  Program& program =
-    vtkVoxelGetProgram(this->Context, touched ? "vtkTouchedRaster" : "vtkSolidRaster", defines,
-      { { GL_VERTEX_SHADER, vertex }, { GL_FRAGMENT_SHADER, fragment } });
+  Program& program = vtkVoxelGetProgram(this->Context, stages.Name, defines,
+    { { GL_VERTEX_SHADER, stages.Vertex }, { GL_FRAGMENT_SHADER, stages.Fragment } });
   program.Use();
   const vtkRasterMeshBinding binding(mesh, grid, tile.Axes);
   binding.Bind(program, MeshUnit);
@@ -257,11 +288,16 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   program.Set("LastSlice", tile.LastSliceOfGrid - tile.FirstSlice);
   program.Set("NumberOfSlices", tile.Slices);
 
+  if (content == Content::PairParity)
+  {
+    binding.BindPairs(program);
+  }
   constexpr double smallestMargin = 2e-3;
   constexpr double roundings = 16.0;
   const double margin = std::max(
     smallestMargin, roundings * std::numeric_limits<float>::epsilon() * binding.GetLargestTerms());
   program.Set("HalfWidth", static_cast<float>(0.5 + margin));
+  program.Set("Margin", static_cast<float>(margin));
 
   vtkVoxelGL::VertexArray vertices(this->Context);
   vertices.Bind();
@@ -277,9 +313,8 @@ void vtkSolidRasterPass::Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
     glEnable(GL_COLOR_LOGIC_OP);
     glLogicOp(touched ? GL_OR : GL_XOR);
   }
-  const GLsizei verticesPerTriangle = touched ? 6 : 3;
-  glDrawArrays(
-    GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.GetNumberOfTriangles()) * verticesPerTriangle);
+  glDrawArrays(GL_TRIANGLES, 0,
+    static_cast<GLsizei>(mesh.GetNumberOfTriangles()) * stages.VerticesPerTriangle);
   glDisable(GL_BLEND);
   glDisable(GL_COLOR_LOGIC_OP);
   targets.End();

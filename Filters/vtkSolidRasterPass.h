@@ -7,6 +7,10 @@
  * The mesh is drawn along the columns into integer render targets, 128 slices each, as many targets
  * at once as the context has (eight at most), and combined by logic operations. Longer columns take
  * more passes, wider grids more tiles. Then the targets are turned to the words of the slicemap.
+ *
+ * With Ties::UpperInside, which is for parity alone, triangles are drawn as rectangles whose
+ * fragments find the covered columns and the crossings in pairs of floats: 48 bits, so that the
+ * voxels are those of vtkSolidComputePass unless a crossing is within some 2^-40 of a voxel of one.
  */
 
 #ifndef vtkSolidRasterPass_h
@@ -17,7 +21,7 @@
 class vtkSolidRasterPass : public vtkSolidPass
 {
 public:
-  explicit vtkSolidRasterPass(vtkVoxelGL::Context context);
+  explicit vtkSolidRasterPass(vtkVoxelGL::Context context, Ties ties = Ties::LowerInside);
 
   bool FillSolid(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Rule rule,
     const Progress& progress) override;
@@ -30,12 +34,15 @@ private:
   enum class Content
   {
     Parity,
+    PairParity,
     Winding,
     Touched
   };
+  struct Stages;
   struct Tile;
   class Targets;
 
+  static Stages GetStages(Content content);
   bool Fill(const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, Content content,
     const Progress& progress);
   void Draw(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const Tile& tile, Content content,
@@ -43,6 +50,7 @@ private:
   void Resolve(vtkSlicemap* target, const Tile& tile, Content content, const Targets& targets);
 
   vtkVoxelGL::Context Context;
+  Ties OnSurface;
 };
 
 #endif

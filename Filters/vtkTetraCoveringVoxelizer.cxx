@@ -17,6 +17,7 @@
 #include "vtkSlicemapKernel.h" // for vtkSlicemapTexture
 #include "vtkSlicemapQuadKernel.h"
 #include "vtkSolidComputePass.h"
+#include "vtkSolidRasterPass.h"
 #include "vtkTetraAugmentation.h"
 #include "vtkTetraModel.h"
 #include "vtkTetraRasterPass.h"
@@ -96,6 +97,14 @@ void CopyPart(vtkSlicemap* all, const vtkVoxelGrid& grid, vtkSlicemap* part)
   AllocateOrThrow(part, grid);
   const glm::ivec3 offset = all->GetGrid().GetFirst() - grid.GetFirst();
   part->CopyVoxels(all, { offset.x, offset.y, offset.z });
+}
+
+/// The axis is the same for all parts of `whole`.
+bool FillColumns(vtkSolidPass& pass, const vtkVoxelMesh& mesh, const vtkVoxelGrid& whole,
+  vtkSlicemap* solid, const std::function<bool(double)>& progress)
+{
+  const int axis = pass.GetCheapestAxis(mesh, solid->GetGrid().WithExtent(whole.Extent));
+  return pass.FillSolid(mesh, solid, axis, vtkSolidPass::Rule::Parity, progress);
 }
 
 /// The ring of a seed is kept with the context: all models of a data set have it in common.
@@ -280,16 +289,28 @@ void vtkTetraCoveringVoxelizer::PrepareDisplacement(const vtkTetraAugmentation& 
   }
 }
 
+int vtkTetraCoveringVoxelizer::GetNumberOfWorkSlicemaps()
+{
+  constexpr int ofShell = 3;
+  return this->Shell == SHELL_NONE ? 1 : ofShell;
+}
+
 bool vtkTetraCoveringVoxelizer::RunPass(
   vtkVoxelMesh& mesh, vtkSlicemap* solid, const std::function<bool(double)>& progress)
 {
+  constexpr auto ties = vtkSolidPass::Ties::UpperInside;
   const auto context = this->GetContext()->GetRecord();
   if (this->GetUsedBackend() == BACKEND_COMPUTE)
   {
-    auto& pass = GetKept<vtkSolidComputePass>(
-      "tetrahedra compute pass", context, context, vtkSolidPass::Ties::UpperInside);
-    const int axis = pass.GetCheapestAxis(mesh, solid->GetGrid());
-    return pass.FillSolid(mesh, solid, axis, vtkSolidPass::Rule::Parity, progress);
+    return FillColumns(
+      GetKept<vtkSolidComputePass>("tetrahedra compute pass", context, context, ties), mesh,
+      this->GetWholeGrid(), solid, progress);
+  }
+  if (this->RasterMethod == RASTER_COLUMNS)
+  {
+    return FillColumns(
+      GetKept<vtkSolidRasterPass>("tetrahedra columns pass", context, context, ties), mesh,
+      this->GetWholeGrid(), solid, progress);
   }
   auto& pass = GetKept<vtkTetraRasterPass>("tetrahedra raster pass", context, context);
   const auto method = this->RasterMethod == RASTER_SLICES ? vtkTetraRasterPass::Method::Slices
@@ -430,24 +451,18 @@ vtkDataObject* vtkTetraCoveringVoxelizer::UpdateInput()
   return this->GetInputDataObject(0, 0);
 }
 
-bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
-  vtkTypeInt64 first, int count, vtkUnsignedCharArray* array)
+/// Where a variant of a batch is on the GPU.
+struct vtkTetraCoveringVoxelizer::Slot
 {
-  const std::int64_t voxels = grid.GetNumberOfVoxels();
-  array->SetName(vtkSlicemapImage::ArrayName);
-  array->SetNumberOfComponents(1);
-  array->SetNumberOfTuples(voxels * count);
-  if (array->GetNumberOfTuples() != voxels * count)
-  {
-    throw std::runtime_error("There is no memory for the batch. Use smaller ones.");
-  }
+  vtkNew<vtkSlicemap> Solid;
+  vtkNew<vtkSlicemap> Shell;
+};
+
+bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
+  vtkTypeInt64 first, int count, const BatchReader& read)
+{
   vtkVoxelMesh& closed = this->PrepareMesh(mesh);
   // One variant is read back while the GPU is busy with the next one.
-  struct Slot
-  {
-    vtkNew<vtkSlicemap> Solid;
-    vtkNew<vtkSlicemap> Shell;
-  };
   std::array<Slot, 2> slots;
   for (const Slot& slot : slots)
   {
@@ -465,25 +480,9 @@ bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid
     }
     return finished;
   };
-  const auto read = [&](int i)
-  {
-    const Slot& slot = slots[i % 2];
-    unsigned char* out = array->GetPointer(i * voxels);
-    const bool labels = this->Shell != SHELL_NONE && this->KeepInterior;
-    const bool shellAlone = this->Shell != SHELL_NONE && !this->KeepInterior;
-    vtkSlicemap* set = shellAlone ? slot.Shell : slot.Solid;
-    bool good = set->Read([&](const std::uint32_t* words)
-      { vtkSlicemapImage::Expand(words, grid, this->GetForegroundValue(), out); });
-    if (good && labels)
-    {
-      good = slot.Shell->Read([&](const std::uint32_t* words)
-        { vtkSlicemapImage::Overlay(words, grid, this->ShellValue, out); });
-    }
-    return good;
-  };
   for (int i = 0; i <= count; ++i)
   {
-    if ((i < count && !fill(i)) || (i > 0 && !read(i - 1)))
+    if ((i < count && !fill(i)) || (i > 0 && !read(i - 1, slots[(i - 1) % 2])))
     {
       return false;
     }
@@ -491,14 +490,9 @@ bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid
   return true;
 }
 
-bool vtkTetraCoveringVoxelizer::VoxelizeBatch(
-  vtkTypeInt64 first, int count, vtkUnsignedCharArray* array)
+bool vtkTetraCoveringVoxelizer::RunBatch(vtkTypeInt64 first, int count, std::int64_t bytesPerVoxel,
+  const std::function<BatchReader(const vtkVoxelGrid& grid)>& begin)
 {
-  if (!array)
-  {
-    vtkErrorMacro("There is no array for the voxels of the batch.");
-    return false;
-  }
   vtkDataObject* input = this->UpdateInput();
   bool finished = false;
   vtkVoxelGrid grid;
@@ -510,24 +504,77 @@ bool vtkTetraCoveringVoxelizer::VoxelizeBatch(
         std::to_string(first) + " on can't be made: ask for one at least, from 0 on at least.");
     }
     grid = whole;
-    this->CheckBytes(grid.GetNumberOfVoxels() * count,
+    this->CheckBytes(grid.GetNumberOfVoxels() * bytesPerVoxel * count,
       "batch of " + std::to_string(count) + " variants", "Use fewer voxels, or smaller batches.");
     return true;
   };
   const auto work = [&](vtkVoxelMesh& mesh)
   {
-    finished = this->FillBatch(mesh, grid, first, count, array);
+    finished = this->FillBatch(mesh, grid, first, count, begin(grid));
     return finished;
   };
   if (input)
   {
     this->RunOnMesh(input, prepare, work);
   }
+  return finished;
+}
+
+bool vtkTetraCoveringVoxelizer::VoxelizeBatch(
+  vtkTypeInt64 first, int count, vtkUnsignedCharArray* array)
+{
+  if (!array)
+  {
+    vtkErrorMacro("There is no array for the voxels of the batch.");
+    return false;
+  }
+  const bool hasShell = this->Shell != SHELL_NONE;
+  const auto begin = [&](const vtkVoxelGrid& grid) -> BatchReader
+  {
+    const std::int64_t voxels = grid.GetNumberOfVoxels();
+    array->SetName(vtkSlicemapImage::ArrayName);
+    array->SetNumberOfComponents(1);
+    array->SetNumberOfTuples(voxels * count);
+    if (array->GetNumberOfTuples() != voxels * count)
+    {
+      throw std::runtime_error("There is no memory for the batch. Use smaller ones.");
+    }
+    return [=](int i, const Slot& slot)
+    {
+      unsigned char* out = array->GetPointer(i * voxels);
+      vtkSlicemap* set = hasShell && !this->KeepInterior ? slot.Shell : slot.Solid;
+      bool good = set->Read([&](const std::uint32_t* words)
+        { vtkSlicemapImage::Expand(words, grid, this->GetForegroundValue(), out); });
+      if (good && hasShell && this->KeepInterior)
+      {
+        good = slot.Shell->Read([&](const std::uint32_t* words)
+          { vtkSlicemapImage::Overlay(words, grid, this->ShellValue, out); });
+      }
+      return good;
+    };
+  };
+  const bool finished = this->RunBatch(first, count, 1, begin);
   if (!finished)
   {
     array->Initialize();
   }
   return finished;
+}
+
+bool vtkTetraCoveringVoxelizer::VisitBatch(vtkTypeInt64 first, int count,
+  const std::function<bool(int i, const vtkVoxelGrid& grid, const std::uint32_t* words)>& visit)
+{
+  const auto begin = [&](const vtkVoxelGrid& grid) -> BatchReader
+  {
+    return [=](int i, const Slot& slot)
+    {
+      vtkSlicemap* set = this->Shell == SHELL_NONE ? slot.Solid : slot.Shell;
+      bool goesOn = false;
+      return set->Read([&](const std::uint32_t* words) { goesOn = visit(i, grid, words); }) &&
+        goesOn;
+    };
+  };
+  return this->RunBatch(first, count, 0, begin);
 }
 
 bool vtkTetraCoveringVoxelizer::RunWithModel(
@@ -616,6 +663,7 @@ bool vtkTetraCoveringVoxelizer::GetVariantMesh(vtkTypeInt64 variant, vtkPolyData
 void vtkTetraCoveringVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const char* const methods[] = { "Slices", "Layers", "Columns" };
   const char* const rotations[] = { "Fixed", "Uniform", "Axis" };
   const char* const distributions[] = { "Uniform", "Normal" };
   const char* const directions[] = { "Free", "AlongNormal" };
@@ -628,8 +676,7 @@ void vtkTetraCoveringVoxelizer::PrintSelf(ostream& os, vtkIndent indent)
     }
     os << "\n";
   };
-  os << indent << "RasterMethod: " << (this->RasterMethod == RASTER_SLICES ? "Slices" : "Layers")
-     << "\n";
+  os << indent << "RasterMethod: " << methods[this->RasterMethod] << "\n";
   os << indent << "Shell: " << this->Shell << "\n";
   os << indent << "KeepInterior: " << this->KeepInterior << "\n";
   os << indent << "ShellValue: " << this->ShellValue << "\n";

@@ -23,9 +23,15 @@
  * these are even in number. They are left out; only the facets at other edges, the open ones, are
  * done.
  *
- * The Raster backend is the paper's: tetrahedra are cut by the slices of voxels, and the sections
- * are drawn with the logic operation XOR (RasterMethod). Coordinates are single precision, and
- * corners of sections are snapped to 1/128 voxel.
+ * The Raster backend does the same with fragments in place of invocations, in pairs of floats, 48
+ * bits together (RasterMethod Columns). Its voxels are those of Compute, bit for bit, unless a
+ * voxel centre is within some 1e-11 voxel of the surface: there ties decide, which the two may see
+ * differently where edges and corners run through voxel centres. Random variants have none.
+ *
+ * RasterMethod Slices and Layers are the paper's ways: tetrahedra are cut by the slices of voxels,
+ * and the sections are drawn with the logic operation XOR. Coordinates are single precision, and
+ * corners of sections are snapped to 1/128 voxel, so that voxels differ where a voxel centre is
+ * that near to the surface.
  *
  * <b>Ties.</b> The paper includes the upper end of a tetrahedron and excludes the lower one. So
  * here, along each axis: of voxel centres that lie on the surface, those at the upper end of a
@@ -101,18 +107,21 @@ public:
   enum RasterMethodType
   {
     RASTER_SLICES = 0,
-    RASTER_LAYERS = 1
+    RASTER_LAYERS = 1,
+    RASTER_COLUMNS = 2
   };
 
   ///@{
   /**
-   * How the Raster backend draws: Slices, a draw for each slice of voxels, or Layers (default),
-   * where the geometry shader cuts a tetrahedron by many slices at once. Both give the same voxels.
+   * How the Raster backend draws: Slices, a draw for each slice of voxels; Layers, where the
+   * geometry shader cuts a tetrahedron by many slices at once, for the same voxels; or Columns
+   * (default), as Compute does it, for the voxels that Compute gives.
    */
-  vtkSetClampMacro(RasterMethod, int, RASTER_SLICES, RASTER_LAYERS);
+  vtkSetClampMacro(RasterMethod, int, RASTER_SLICES, RASTER_COLUMNS);
   vtkGetMacro(RasterMethod, int);
   void SetRasterMethodToSlices() { this->SetRasterMethod(RASTER_SLICES); }
   void SetRasterMethodToLayers() { this->SetRasterMethod(RASTER_LAYERS); }
+  void SetRasterMethodToColumns() { this->SetRasterMethod(RASTER_COLUMNS); }
   ///@}
 
   ///@{
@@ -253,6 +262,14 @@ public:
   bool VoxelizeBatch(vtkTypeInt64 first, int count, vtkUnsignedCharArray* array);
 
   /**
+   * The same variants as bits, which are not expanded to bytes: calls `visit` with the number of
+   * each, counted from `first`, its grid and its words, in the layout of vtkSlicemap. Shells come
+   * without the interior. False after one error, or when `visit` answers false.
+   */
+  bool VisitBatch(vtkTypeInt64 first, int count,
+    const std::function<bool(int i, const vtkVoxelGrid& grid, const std::uint32_t* words)>& visit);
+
+  /**
    * Where a variant goes, in world coordinates, after the displacement of its points. Updates the
    * input. False after one error.
    */
@@ -278,6 +295,7 @@ protected:
   ~vtkTetraCoveringVoxelizer() override;
 
   bool Voxelize(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkSlicemap* slicemap) override;
+  int GetNumberOfWorkSlicemaps() override;
   int RequestInformation(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool AddArrays(
@@ -301,12 +319,16 @@ private:
   bool FillSolid(vtkTypeInt64 variant, vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
     vtkSlicemap* solid, const std::function<bool(double)>& progress);
   void FindShell(vtkSlicemap* solid, vtkSlicemap* shell);
+  struct Slot;
+  using BatchReader = std::function<bool(int i, const Slot& slot)>;
   bool FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkTypeInt64 first, int count,
-    vtkUnsignedCharArray* array);
+    const BatchReader& read);
+  bool RunBatch(vtkTypeInt64 first, int count, std::int64_t bytesPerVoxel,
+    const std::function<BatchReader(const vtkVoxelGrid& grid)>& begin);
   vtkDataObject* UpdateInput();
   bool RunWithModel(const std::function<void(const vtkTetraModel& model)>& work);
 
-  int RasterMethod = RASTER_LAYERS;
+  int RasterMethod = RASTER_COLUMNS;
   int Shell = SHELL_NONE;
   bool KeepInterior = false;
   int ShellValue = 2;

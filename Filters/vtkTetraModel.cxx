@@ -125,26 +125,7 @@ std::vector<std::uint32_t> vtkTetraModel::FindPlaces() const
       points.push_back(point);
     }
   }
-  // A hash table with open addressing, half full at most.
-  constexpr std::uint32_t none = ~0u;
-  std::size_t capacity = 2;
-  while (capacity < 2 * points.size())
-  {
-    capacity *= 2;
-  }
-  std::vector<std::uint32_t> table(capacity, none);
-  std::vector<std::uint32_t> places(points.size());
-  for (std::uint32_t id = 0; id < points.size(); ++id)
-  {
-    std::size_t at = vtkHashPlace(points[id].data()) & (capacity - 1);
-    while (table[at] != none && points[table[at]] != points[id])
-    {
-      at = (at + 1) & (capacity - 1);
-    }
-    table[at] = std::min(table[at], id);
-    places[id] = table[at];
-  }
-  return places;
+  return vtkFindPlaces(points);
 }
 
 std::vector<glm::vec3> vtkTetraModel::ComputeNormals(const std::vector<std::uint32_t>& places) const

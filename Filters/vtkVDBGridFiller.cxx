@@ -299,6 +299,27 @@ void vtkVDBGridFiller<Tree>::Add(const std::uint32_t* words, const vtkVoxelGrid&
 }
 
 template <typename Tree>
+bool vtkVDBGridFiller<Tree>::AddLayers(const std::uint32_t* words, const vtkVoxelGrid& slices,
+  const std::function<bool(double)>& progress)
+{
+  const std::int64_t sliceWords = vtkSlicemap::GetWordsPerRow(slices) * slices.GetDimensions().y;
+  const std::int64_t first = slices.Extent[4];
+  const std::int64_t last = slices.Extent[5];
+  std::array<int, 6> layer = slices.Extent;
+  for (std::int64_t z = first; z <= last; z = std::int64_t(layer[5]) + 1)
+  {
+    if (!progress(double(z - first) / double(last - first + 1)))
+    {
+      return false;
+    }
+    layer[4] = static_cast<int>(z);
+    layer[5] = static_cast<int>(std::min(last, z | (BlockSide - 1)));
+    this->Add(words + (z - first) * sliceWords, slices.WithExtent(layer));
+  }
+  return true;
+}
+
+template <typename Tree>
 void vtkVDBGridFiller<Tree>::Finish()
 {
   openvdb::tools::pruneTiles(this->Target);

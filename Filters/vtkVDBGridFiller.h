@@ -11,6 +11,7 @@
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 struct vtkVoxelGrid;
@@ -34,6 +35,13 @@ public:
    * the extent of `slab` says where its first word is.
    */
   void Add(const std::uint32_t* words, const vtkVoxelGrid& slab);
+
+  /**
+   * The same for any number of slices, in layers of blocks; `progress` gets the fraction that is
+   * done, and stops the work by returning false, which is returned.
+   */
+  bool AddLayers(const std::uint32_t* words, const vtkVoxelGrid& slices,
+    const std::function<bool(double)>& progress);
 
   /**
    * Turns what is full and larger than 128^3 into tiles.

@@ -78,7 +78,7 @@ bool GetExtent(const openvdb::GridBase& grid, const std::string& firstName,
 }
 }
 
-void vtkVDBLattice::ApplyTo(const vtkVoxelGrid& lattice, openvdb::GridBase& grid)
+void vtkVDBLattice::Check(const vtkVoxelGrid& lattice)
 {
   if (!IsRectangular(GetAxes(lattice)))
   {
@@ -86,6 +86,11 @@ void vtkVDBLattice::ApplyTo(const vtkVoxelGrid& lattice, openvdb::GridBase& grid
       "The axes of the image are not at right angles, or its spacing is zero: " +
         lattice.Describe() + ". Resample it.");
   }
+}
+
+void vtkVDBLattice::ApplyTo(const vtkVoxelGrid& lattice, openvdb::GridBase& grid)
+{
+  Check(lattice);
   grid.setTransform(MakeTransform(lattice));
   const auto& extent = lattice.Extent;
   grid.insertMeta(

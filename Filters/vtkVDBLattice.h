@@ -15,8 +15,12 @@
 namespace vtkVDBLattice
 {
 /**
- * Gives a grid the transform of the lattice, and its extent as metadata. Throws vtkVoxelFileError
- * when voxels have no size or their axes are not at right angles.
+ * Throws vtkVoxelFileError when voxels have no size or their axes are not at right angles.
+ */
+void Check(const vtkVoxelGrid& lattice);
+
+/**
+ * Gives a grid the transform of the lattice, and its extent as metadata. Throws what Check does.
  */
 void ApplyTo(const vtkVoxelGrid& lattice, openvdb::GridBase& grid);
 

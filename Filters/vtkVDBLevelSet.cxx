@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVDBLevelSet.h"
 
+#include "vtkByteSwap.h"
 #include "vtkSMPTools.h"
 #include "vtkVDBNewGrid.h"
+#include "vtkVoxelFileError.h"
+#include "vtkVoxelGrid.h"
 
 #include <openvdb/tools/Morphology.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -24,6 +28,7 @@ constexpr int LeafShift = 3;
 constexpr int WindowSide = 3 * LeafSide;
 constexpr std::uint64_t Ones = ~std::uint64_t(0);
 constexpr vtkIdType LeavesAtOnce = 1 << 15;
+constexpr double CubeTolerance = 1e-6; // relative
 
 /// A solid's leaves as voxels of a coarser tree: those where a band may be.
 std::vector<Coord> FindCandidates(const openvdb::MaskTree& solid)
@@ -62,12 +67,23 @@ struct Offset
 {
   int X, Y, Z;
   int Squared;
+  float Distance; // of voxels that find it there, in world units
 };
 
-std::vector<Offset> MakeOffsets(double halfWidth)
+double GetRadius(double halfWidth)
 {
-  const double radius = halfWidth + 0.5;
-  const int reach = static_cast<int>(radius);
+  return halfWidth + 0.5;
+}
+
+int GetReach(double halfWidth)
+{
+  return static_cast<int>(GetRadius(halfWidth));
+}
+
+std::vector<Offset> MakeOffsets(double voxelSize, double halfWidth)
+{
+  const double radius = GetRadius(halfWidth);
+  const int reach = GetReach(halfWidth);
   std::vector<Offset> offsets;
   for (int x = -reach; x <= reach; ++x)
   {
@@ -78,7 +94,8 @@ std::vector<Offset> MakeOffsets(double halfWidth)
         const int squared = x * x + y * y + z * z;
         if (squared > 0 && squared < radius * radius)
         {
-          offsets.push_back({ x, y, z, squared });
+          const auto distance = static_cast<float>((std::sqrt(squared) - 0.5) * voxelSize);
+          offsets.push_back({ x, y, z, squared, distance });
         }
       }
     }
@@ -88,14 +105,21 @@ std::vector<Offset> MakeOffsets(double halfWidth)
   return offsets;
 }
 
-/// The bits of a leaf and of its 26 neighbours.
+/// Plane x of a leaf: z runs fastest, then y, as in OpenVDB's leaves.
+using Planes = std::array<std::uint64_t, LeafSide>;
+
+/**
+ * The bits of a leaf and of its 26 neighbours, once for each offset along z: then the rows of any
+ * plane lie side by side as the bytes of one word.
+ */
 class Window
 {
 public:
   using Accessor = openvdb::tree::ValueAccessor<const openvdb::MaskTree>;
 
-  Window(Accessor& solid, const Coord& origin)
+  Window(Accessor& solid, const Coord& origin, int reach)
   {
+    std::array<std::array<std::uint32_t, WindowSide>, WindowSide> rows{};
     for (int x = 0; x < WindowSide; x += LeafSide)
     {
       for (int y = 0; y < WindowSide; y += LeafSide)
@@ -107,45 +131,51 @@ public:
           const std::uint64_t tile = !leaf && solid.isValueOn(xyz) ? Ones : 0;
           for (int i = 0; i < LeafSide; ++i)
           {
-            this->Put(x + i, y, z,
-              leaf ? leaf->getValueMask().template getWord<openvdb::Index64>(i) : tile);
+            const std::uint64_t plane =
+              leaf ? leaf->getValueMask().template getWord<openvdb::Index64>(i) : tile;
+            for (int j = 0; j < LeafSide; ++j)
+            {
+              rows[x + i][y + j] |= std::uint32_t(plane >> (j * LeafSide) & 0xff) << z;
+            }
           }
+        }
+      }
+    }
+    for (int dz = -reach; dz <= reach; ++dz)
+    {
+      for (int x = LeafSide - reach; x < 2 * LeafSide + reach; ++x)
+      {
+        auto& bytes = this->Bytes[LeafSide + dz][x];
+        for (int y = 0; y < WindowSide; ++y)
+        {
+          bytes[y] = static_cast<unsigned char>(rows[x][y] >> (LeafSide + dz));
         }
       }
     }
   }
 
-  /// Plane x of the leaf moved by an offset: z runs fastest, then y, as in OpenVDB's leaves.
+  /// Plane x of the leaf moved by an offset.
   std::uint64_t GetPlane(int x, int dy, int dz) const
   {
-    std::uint64_t plane = 0;
-    for (int y = 0; y < LeafSide; ++y)
-    {
-      const std::uint32_t row = this->Rows[x + LeafSide][y + LeafSide + dy];
-      plane |= std::uint64_t(row >> (LeafSide + dz) & 0xff) << (y * LeafSide);
-    }
+    std::uint64_t plane;
+    std::memcpy(&plane, &this->Bytes[LeafSide + dz][LeafSide + x][LeafSide + dy], sizeof(plane));
+    vtkByteSwap::Swap8LE(&plane);
     return plane;
   }
 
 private:
-  void Put(int x, int y, int z, std::uint64_t plane)
-  {
-    for (int i = 0; i < LeafSide; ++i)
-    {
-      this->Rows[x][y + i] |= std::uint32_t(plane >> (i * LeafSide) & 0xff) << z;
-    }
-  }
+  using Plane = std::array<std::array<unsigned char, WindowSide>, WindowSide>;
 
-  std::array<std::array<std::uint32_t, WindowSide>, WindowSide> Rows{};
+  std::array<Plane, 2 * LeafSide> Bytes; // by offset along z, x, y
 };
 
 class Band
 {
 public:
   Band(double voxelSize, double halfWidth)
-    : VoxelSize(voxelSize)
-    , Background(static_cast<float>(halfWidth * voxelSize))
-    , Offsets(MakeOffsets(halfWidth))
+    : Background(static_cast<float>(halfWidth * voxelSize))
+    , Reach(GetReach(halfWidth))
+    , Offsets(MakeOffsets(voxelSize, halfWidth))
   {
   }
 
@@ -154,9 +184,9 @@ public:
   /// Null where no voxel is in the band.
   std::unique_ptr<Leaf> MakeLeaf(Window::Accessor& solid, const Coord& origin) const
   {
-    const Window window(solid, origin);
-    std::array<std::uint64_t, LeafSide> inside;
-    std::array<std::uint64_t, LeafSide> open;
+    const Window window(solid, origin, this->Reach);
+    Planes inside;
+    Planes open; // not yet in the band
     open.fill(Ones);
     for (int x = 0; x < LeafSide; ++x)
     {
@@ -165,61 +195,64 @@ public:
     std::unique_ptr<Leaf> leaf;
     for (const Offset& offset : this->Offsets)
     {
+      std::uint64_t anyOpen = 0;
       for (int x = 0; x < LeafSide; ++x)
       {
         const std::uint64_t found =
           (window.GetPlane(x + offset.X, offset.Y, offset.Z) ^ inside[x]) & open[x];
+        open[x] &= ~found;
+        anyOpen |= open[x];
         if (found != 0)
         {
           if (!leaf)
           {
             leaf = this->MakeSigned(inside, origin);
           }
-          open[x] &= ~found;
-          this->Assign(*leaf, x, found, inside[x], offset.Squared);
+          Assign(*leaf, x, found, inside[x], offset.Distance);
         }
       }
+      if (anyOpen == 0)
+      {
+        break;
+      }
+    }
+    if (leaf)
+    {
+      Leaf::NodeMaskType mask;
+      for (int x = 0; x < LeafSide; ++x)
+      {
+        mask.getWord<openvdb::Index64>(x) = ~open[x];
+      }
+      leaf->setValueMask(mask);
     }
     return leaf;
   }
 
 private:
-  static openvdb::Index GetIndex(int x, int bit)
-  {
-    return static_cast<openvdb::Index>(x * LeafSide * LeafSide + bit);
-  }
+  static constexpr int PlaneSize = LeafSide * LeafSide;
 
-  std::unique_ptr<Leaf> MakeSigned(
-    const std::array<std::uint64_t, LeafSide>& inside, const Coord& origin) const
+  std::unique_ptr<Leaf> MakeSigned(const Planes& inside, const Coord& origin) const
   {
     auto leaf = std::make_unique<Leaf>(origin, this->Background);
     for (int x = 0; x < LeafSide; ++x)
     {
-      for (int bit = 0; bit < LeafSide * LeafSide; ++bit)
-      {
-        if (inside[x] >> bit & 1)
-        {
-          leaf->setValueOnly(GetIndex(x, bit), -this->Background);
-        }
-      }
+      Assign(*leaf, x, inside[x], inside[x], this->Background);
     }
     return leaf;
   }
 
-  void Assign(Leaf& leaf, int x, std::uint64_t voxels, std::uint64_t inside, int squared) const
+  static void Assign(Leaf& leaf, int x, std::uint64_t voxels, std::uint64_t inside, float distance)
   {
-    const float distance = static_cast<float>((std::sqrt(squared) - 0.5) * this->VoxelSize);
-    for (int bit = 0; bit < LeafSide * LeafSide; ++bit)
+    float* const values = leaf.buffer().data() + x * PlaneSize;
+    for (; voxels != 0; voxels &= voxels - 1)
     {
-      if (voxels >> bit & 1)
-      {
-        leaf.setValueOn(GetIndex(x, bit), inside >> bit & 1 ? -distance : distance);
-      }
+      const auto bit = openvdb::util::FindLowestOn(voxels);
+      values[bit] = inside >> bit & 1 ? -distance : distance;
     }
   }
 
-  double VoxelSize;
   float Background;
+  int Reach;
   std::vector<Offset> Offsets;
 };
 
@@ -233,6 +266,26 @@ void AddInterior(const openvdb::MaskTree& solid, float value, openvdb::FloatTree
     tree.addTile(tile.getLevel(), tile.getCoord(), value, false);
   }
 }
+}
+
+void vtkVDBLevelSet::Check(const vtkVoxelGrid& lattice)
+{
+  const glm::dvec3 spacing = glm::abs(lattice.Spacing);
+  const bool areCubes = glm::all(
+    glm::lessThanEqual(glm::abs(spacing - spacing.x), glm::dvec3(CubeTolerance * spacing.x)));
+  if (!areCubes)
+  {
+    throw vtkVoxelFileError(vtkErrorCode::UserError,
+      "A level set has cubic voxels, and this image has others: " + lattice.Describe() +
+        ". Resample it, or write a bool or mask grid.");
+  }
+}
+
+std::int64_t vtkVDBLevelSet::EstimateBytes(const openvdb::MaskTree& solid)
+{
+  constexpr std::int64_t bytesPerLeaf =
+    sizeof(Leaf) + Leaf::NUM_VALUES * sizeof(float) + sizeof(Coord);
+  return static_cast<std::int64_t>(FindCandidates(solid).size()) * bytesPerLeaf;
 }
 
 openvdb::FloatGrid::Ptr vtkVDBLevelSet::Make(const openvdb::MaskTree& solid, double voxelSize,

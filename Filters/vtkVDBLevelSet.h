@@ -10,10 +10,23 @@
 
 #include <openvdb/openvdb.h>
 
+#include <cstdint>
 #include <functional>
+
+struct vtkVoxelGrid;
 
 namespace vtkVDBLevelSet
 {
+/**
+ * Throws vtkVoxelFileError when voxels are no cubes.
+ */
+void Check(const vtkVoxelGrid& lattice);
+
+/**
+ * Bytes that Make takes at most beside those of `solid`.
+ */
+std::int64_t EstimateBytes(const openvdb::MaskTree& solid);
+
 /**
  * Distances, in world units, negative inside: from the centre of a voxel to the nearest centre of
  * the other kind, less half a voxel, which is exact on average and off by half a voxel at most

@@ -14,13 +14,13 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSlicemap.h"
 #include "vtkSlicemapImage.h"
 #include "vtkVDBArrays.h"
 #include "vtkVDBGridFiller.h"
 #include "vtkVDBLattice.h"
 #include "vtkVDBLevelSet.h"
 #include "vtkVDBNewGrid.h"
+#include "vtkVDBOutput.h"
 #include "vtkVoxelFileError.h"
 #include "vtkVoxelGrid.h"
 
@@ -32,7 +32,6 @@
 #include <cmath>
 #include <functional>
 #include <new>
-#include <streambuf>
 #include <vector>
 
 namespace
@@ -42,91 +41,11 @@ using Watcher = std::function<bool(double)>;
 
 constexpr char IndexName[] = "VoxelIndex";
 constexpr char DensityName[] = "Density";
-constexpr char CreatorName[] = "creator";
-constexpr char Creator[] = "VTKVoxelization";
-constexpr int SlabSlices = 128;        // the voxels of OpenVDB's second level
-constexpr double ShareOfMaking = 0.7;  // of the progress
-constexpr double CubeTolerance = 1e-6; // relative
+constexpr double ShareOfMaking = 0.7; // of the progress
 
 struct Aborted
 {
 };
-
-/// Writes through another buffer, and looks up now and then.
-class WatchedBuffer : public std::streambuf
-{
-public:
-  WatchedBuffer(std::streambuf* target, std::function<void(std::int64_t)> watch)
-    : Target(target)
-    , Watch(std::move(watch))
-  {
-  }
-
-protected:
-  std::streamsize xsputn(const char* bytes, std::streamsize count) override
-  {
-    this->Written += count;
-    if (this->Written >= this->NextLook)
-    {
-      this->Watch(this->Written);
-      constexpr std::int64_t step = 1 << 20;
-      this->NextLook = this->Written + step;
-    }
-    return this->Target->sputn(bytes, count);
-  }
-  int_type overflow(int_type c) override
-  {
-    return c == traits_type::eof() ? c : this->Target->sputc(traits_type::to_char_type(c));
-  }
-  pos_type seekoff(
-    off_type offset, std::ios_base::seekdir from, std::ios_base::openmode mode) override
-  {
-    return this->Target->pubseekoff(offset, from, mode);
-  }
-  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override
-  {
-    return this->Target->pubseekpos(position, mode);
-  }
-  int sync() override { return this->Target->pubsync(); }
-
-private:
-  std::streambuf* Target;
-  std::function<void(std::int64_t)> Watch;
-  std::int64_t Written = 0;
-  std::int64_t NextLook = 0;
-};
-
-/// OpenVDB's own file opens a name, and does not look whether its bytes arrive.
-struct StreamArchive : openvdb::io::Archive
-{
-  using openvdb::io::Archive::write;
-};
-
-std::uint32_t GetCompressionFlags(int compression)
-{
-  switch (compression)
-  {
-    case vtkVDBVoxelWriter::COMPRESSION_BLOSC:
-      return openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK;
-    case vtkVDBVoxelWriter::COMPRESSION_ZIP:
-      return openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK;
-    default:
-      return openvdb::io::COMPRESS_ACTIVE_MASK;
-  }
-}
-
-int GetDefaultCompression()
-{
-  for (const int compression :
-    { vtkVDBVoxelWriter::COMPRESSION_BLOSC, vtkVDBVoxelWriter::COMPRESSION_ZIP })
-  {
-    if (vtkVDBVoxelWriter::IsCompressionAvailable(compression))
-    {
-      return compression;
-    }
-  }
-  return vtkVDBVoxelWriter::COMPRESSION_NONE;
-}
 
 [[noreturn]] void Refuse(const std::string& what)
 {
@@ -182,25 +101,7 @@ template <typename Tree>
 void Fill(Tree& tree, const vtkImageVoxels& voxels, const Watcher& progress)
 {
   vtkVDBGridFiller<Tree> filler(tree);
-  const vtkVoxelGrid& grid = voxels.Grid;
-  const std::int64_t sliceWords = vtkSlicemap::GetWordsPerRow(grid) * grid.GetDimensions().y;
-  const int first = grid.Extent[4];
-  const int last = grid.Extent[5];
-  voxels.Read(
-    [&](const std::uint32_t* words)
-    {
-      std::array<int, 6> slab = grid.Extent;
-      for (std::int64_t z = first; z <= last; z = std::int64_t(slab[5]) + 1)
-      {
-        if (!progress((double(z) - first) / (double(last) - first + 1.0)))
-        {
-          return;
-        }
-        slab[4] = static_cast<int>(z);
-        slab[5] = std::min(last, static_cast<int>(z | (SlabSlices - 1)));
-        filler.Add(words + (z - first) * sliceWords, grid.WithExtent(slab));
-      }
-    });
+  voxels.Read([&](const std::uint32_t* words) { filler.AddLayers(words, voxels.Grid, progress); });
   filler.Finish();
 }
 
@@ -213,13 +114,6 @@ void Fill(Tree& tree, const VoxelList& list, const Watcher&)
     accessor.setValueOn(voxel, true);
   }
   openvdb::tools::prune(tree);
-}
-
-bool AreCubes(const vtkVoxelGrid& grid)
-{
-  const glm::dvec3 spacing = glm::abs(grid.Spacing);
-  return glm::all(
-    glm::lessThanEqual(glm::abs(spacing - spacing.x), glm::dvec3(CubeTolerance * spacing.x)));
 }
 }
 
@@ -300,11 +194,7 @@ private:
     }
     else
     {
-      if (!AreCubes(lattice))
-      {
-        Refuse("A level set has cubic voxels, and this image has others: " + lattice.Describe() +
-          ". Resample it, or write a bool or mask grid.");
-      }
+      vtkVDBLevelSet::Check(lattice);
       const auto solid = this->MakeBits<openvdb::MaskGrid>(source);
       grid = vtkVDBLevelSet::Make(solid->constTree(), std::abs(lattice.Spacing.x),
         this->Writer->HalfBandWidth, this->GetProgress());
@@ -443,8 +333,8 @@ vtkStandardNewMacro(vtkVDBVoxelWriter);
 vtkCxxSetObjectMacro(vtkVDBVoxelWriter, ReferenceImage, vtkImageData);
 
 vtkVDBVoxelWriter::vtkVDBVoxelWriter()
-  : Compression(GetDefaultCompression())
-  , Metadata{ { CreatorName, Creator } }
+  : Compression(vtkVDBOutput::GetDefaultCompression())
+  , Metadata(vtkVDBOutput::GetDefaultMetadata())
 {
 }
 
@@ -550,37 +440,11 @@ void vtkVDBVoxelWriter::WriteData()
     openvdb::initialize();
     vtkNewVoxelFile file(this->FileName, this->InPlace);
     const Grids grids(this, [&](double fraction) { return progress(ShareOfMaking * fraction); });
-    double bytes = 1.0;
-    openvdb::GridCPtrVec written;
-    for (const GridPtr& grid : grids.Get())
+    const bool written = vtkVDBOutput::Write(file, grids.Get(), this->Metadata, this->Compression,
+      [&](double fraction) { return progress(ShareOfMaking + (1.0 - ShareOfMaking) * fraction); });
+    if (!written)
     {
-      bytes += double(grid->memUsage());
-      written.push_back(grid);
-    }
-    WatchedBuffer buffer(file.GetStream().rdbuf(),
-      [&](std::int64_t count)
-      {
-        if (!progress(ShareOfMaking + (1.0 - ShareOfMaking) * std::min(1.0, count / bytes)))
-        {
-          throw Aborted();
-        }
-      });
-    std::ostream stream(&buffer);
-    stream.exceptions(std::ios::failbit | std::ios::badbit);
-    openvdb::MetaMap metadata;
-    for (const auto& [name, text] : this->Metadata)
-    {
-      metadata.insertMeta(name, openvdb::StringMetadata(text));
-    }
-    try
-    {
-      StreamArchive archive;
-      archive.setCompression(GetCompressionFlags(this->Compression));
-      archive.write(stream, written, true, metadata);
-    }
-    catch (const std::ios_base::failure&)
-    {
-      file.Fail("the disk may be full");
+      return;
     }
     file.Commit();
     for (const GridPtr& grid : grids.Get())

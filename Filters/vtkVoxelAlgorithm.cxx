@@ -4,6 +4,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -17,6 +18,7 @@
 #include "vtkVoxelContextScope.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMemory.h"
+#include "vtkVoxelSpareArrays.h"
 
 #include <stdexcept>
 #include <vector>
@@ -27,6 +29,7 @@ struct vtkVoxelAlgorithm::Internals
   std::vector<vtkSmartPointer<vtkSlicemap>> Slicemaps; // by output port
   vtkIdType NumberOfFilledVoxels = -1;                 // -1: those of the first slicemap
   std::string RendererName;
+  vtkVoxelSpareArrays Spare; // from before a run to its end
 
   /// Ports may have gone.
   void ForgetBeyond(int numberOfPorts)
@@ -111,6 +114,33 @@ int vtkVoxelAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+vtkTypeBool vtkVoxelAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // The last chance to see the arrays of the last run.
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
+  {
+    for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+    {
+      if (vtkImageData* output = vtkImageData::GetData(outputs, port))
+      {
+        this->Common->Spare.Keep(output);
+      }
+    }
+  }
+  const vtkTypeBool result = this->Superclass::ProcessRequest(request, inputs, outputs);
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    this->Common->Spare.Clear();
+  }
+  return result;
+}
+
+vtkVoxelSpareArrays* vtkVoxelAlgorithm::GetSpareArrays()
+{
+  return &this->Common->Spare;
+}
+
 int vtkVoxelAlgorithm::RunInContext(
   const std::string& doing, const std::function<bool()>& prepare, const std::function<bool()>& work)
 {
@@ -169,6 +199,10 @@ void vtkVoxelAlgorithm::CheckMemory(const vtkVoxelGrid& grid)
 void vtkVoxelAlgorithm::CheckBytes(
   std::int64_t bytes, const std::string& what, const std::string& remedy) const
 {
+  if (!vtkVoxelMemory::Fits(bytes, this->MemoryLimit))
+  {
+    this->Common->Spare.Clear();
+  }
   vtkVoxelMemory::CheckBytes(bytes, this->MemoryLimit, what, remedy);
 }
 
@@ -238,7 +272,8 @@ void vtkVoxelAlgorithm::FillOutput(vtkImageData* output, vtkSlicemap* slicemap)
   (this->HasCellVoxels() ? grid.VoxelsToCells() : grid).ApplyTo(output);
   if (this->HostOutput)
   {
-    const auto array = vtkSlicemapImage::NewArray(grid, this->OutputScalarType);
+    const auto array =
+      vtkSlicemapImage::NewArray(grid, this->OutputScalarType, &this->Common->Spare);
     if (!array)
     {
       throw std::runtime_error("There is no memory for the " +

@@ -8,7 +8,9 @@
  * ForegroundValue where the voxel is set and 0 elsewhere, or VTK_BIT (OutputScalarType). With
  * OutputAttributeType Cell the voxels are the cells of the image instead, at the same place in
  * space. The image carries its vtkSlicemap, so that filters of this module behind it work on the
- * GPU without a transfer; with HostOutput off it carries nothing else.
+ * GPU without a transfer; with HostOutput off it carries nothing else. A filter that runs again
+ * writes into the arrays of its last run, as VTK's filters for images do, unless somebody else
+ * holds a reference to them.
  *
  * <b>Errors.</b> One error that says what is wrong and what to do, and an empty output: a result
  * larger than MemoryLimit, no OpenGL context.
@@ -33,6 +35,7 @@ class vtkImageData;
 class vtkRenderWindow;
 class vtkSlicemap;
 class vtkVoxelContext;
+class vtkVoxelSpareArrays;
 struct vtkVoxelGrid;
 
 class VTKVOXELIZATION_EXPORT vtkVoxelAlgorithm : public vtkImageAlgorithm
@@ -115,6 +118,9 @@ public:
    */
   const char* GetRendererName();
 
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
 protected:
   vtkVoxelAlgorithm();
   ~vtkVoxelAlgorithm() override;
@@ -184,6 +190,11 @@ protected:
   vtkDataSetAttributes* GetVoxelData(vtkImageData* output);
 
   vtkVoxelContext* GetContext();
+
+  /**
+   * The arrays of the last run, for those of this one to have their memory.
+   */
+  vtkVoxelSpareArrays* GetSpareArrays();
 
   /**
    * For runs that leave no slicemap: the number of voxels that they set.

@@ -102,7 +102,7 @@ bool vtkVoxelDensityNormals::Execute(
   const vtkVoxelGrid grid = this->GetOutputGrid(inputs[0]->GetGrid());
   const vtkDensityPass pass(this->GetContext()->GetRecord(), kernel, this->Downsample);
   vtkDensityArrays arrays(grid, pass.GetNumberOfPlanes(), this->GetScalarType(),
-    static_cast<vtkDensityArrays::Gradient>(this->NormalMode));
+    static_cast<vtkDensityArrays::Gradient>(this->NormalMode), this->GetSpareArrays());
   const double slices = grid.GetDimensions().z;
   const bool finished = pass.Run(inputs[0],
     [&](const vtkDensityPass::Slab& slab)

@@ -13,9 +13,17 @@
 
 namespace vtkVoxelMemory
 {
+/// What the system says is free, or can be freed at once.
+std::int64_t GetFreeBytes();
+
 /**
- * Throws std::runtime_error, which names `what` and ends with `remedy`, when it takes more bytes
- * than `limit`, or than are free where the limit is 0.
+ * Whether so many bytes are no more than `limit`, or than are free where the limit is 0.
+ */
+bool Fits(std::int64_t bytes, std::int64_t limit);
+
+/**
+ * Throws std::runtime_error, which names `what` and ends with `remedy`, when so many
+ * bytes don't fit.
  */
 void CheckBytes(
   std::int64_t bytes, std::int64_t limit, const std::string& what, const std::string& remedy);

@@ -205,21 +205,27 @@ bool vtkVoxelMesh::GetBounds(vtkDataObject* input, double bounds[6])
   return box.IsValid() != 0;
 }
 
-void vtkVoxelMesh::Update(
-  const vtkVoxelGL::Context& context, vtkDataObject* input, Triangulation triangulation)
+std::vector<vtkVoxelMesh::Identity> vtkVoxelMesh::Identify(vtkDataObject* input)
 {
-  Leaves leaves = GetLeaves(input);
   std::vector<Identity> identities;
-  bool onlyTriangles = true;
-  for (const auto& leaf : leaves)
+  for (const auto& leaf : GetLeaves(input))
   {
     vtkCellArray* polygons = leaf->GetPolys();
     vtkCellArray* strips = leaf->GetStrips();
     identities.push_back({ leaf->GetPoints()->GetData(), polygons, strips,
       std::max({ leaf->GetPoints()->GetMTime(), leaf->GetPoints()->GetData()->GetMTime(),
         polygons->GetMTime(), strips->GetMTime() }) });
-    onlyTriangles = onlyTriangles && MayBeTriangles(polygons);
   }
+  return identities;
+}
+
+void vtkVoxelMesh::Update(
+  const vtkVoxelGL::Context& context, vtkDataObject* input, Triangulation triangulation)
+{
+  Leaves leaves = GetLeaves(input);
+  const std::vector<Identity> identities = Identify(input);
+  const bool onlyTriangles = std::all_of(leaves.begin(), leaves.end(),
+    [](const auto& leaf) { return MayBeTriangles(leaf->GetPolys()); });
   const bool present = this->Context == context && this->Points && this->Triangles &&
     this->Uploaded == identities && (this->UploadedAs == triangulation || onlyTriangles);
   if (present)

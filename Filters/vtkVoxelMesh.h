@@ -36,6 +36,21 @@ public:
     Exact ///< ear clipping by vtkTriangleFilter: the triangles cover just the polygon
   };
 
+  /// What an input consists of, and when that changed last: equal for inputs whose triangles are.
+  struct Identity
+  {
+    const void* Points;
+    const void* Polygons;
+    const void* Strips;
+    std::uint64_t Time;
+    bool operator==(const Identity& o) const
+    {
+      return this->Points == o.Points && this->Polygons == o.Polygons && this->Strips == o.Strips &&
+        this->Time == o.Time;
+    }
+  };
+  static std::vector<Identity> Identify(vtkDataObject* input);
+
   /// The polydata of the input: itself, or all leaves of a composite.
   static std::vector<vtkSmartPointer<vtkPolyData>> GetLeaves(vtkDataObject* input);
 
@@ -70,6 +85,9 @@ public:
   /// vtkVoxelMeshFetch.glsl, or of its counterpart in single precision; the program must be in use.
   void Bind(vtkVoxelGL::Program& program, unsigned int unit) const;
 
+  /// Makes the point ids of the triangles the indices of the vertex array that is bound.
+  void BindIndices() const { this->Triangles.Bind(GL_ELEMENT_ARRAY_BUFFER); }
+
   /// Area of all triangles projected along each of the three axes of index coordinates, in squares
   /// of voxels; estimated from a fixed sample of the triangles.
   glm::dvec3 EstimateProjectedAreas(const glm::dmat4& worldToIndex) const;
@@ -85,19 +103,6 @@ public:
   int GetNumberOfUploads() const { return this->NumberOfUploads; }
 
 private:
-  struct Identity
-  {
-    const void* Points;
-    const void* Polygons;
-    const void* Strips;
-    std::uint64_t Time;
-    bool operator==(const Identity& o) const
-    {
-      return this->Points == o.Points && this->Polygons == o.Polygons && this->Strips == o.Strips &&
-        this->Time == o.Time;
-    }
-  };
-
   void UploadPoints(const std::vector<vtkSmartPointer<vtkPolyData>>& leaves);
   void UploadTriangles(
     const std::vector<vtkSmartPointer<vtkPolyData>>& leaves, bool expectTriangles);

@@ -4,6 +4,7 @@
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
+#include "vtkConnectedSets.h"
 #include "vtkIdList.h"
 #include "vtkPlaceHash.h"
 #include "vtkPoints.h"
@@ -19,36 +20,9 @@
 #include <atomic>
 #include <cstdint>
 #include <map>
-#include <numeric>
 
 namespace
 {
-/// Sets of connected points, by the representative of each.
-class ConnectedPoints
-{
-public:
-  explicit ConnectedPoints(vtkIdType points)
-    : Parents(points)
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), vtkIdType(0));
-  }
-
-  vtkIdType Find(vtkIdType point)
-  {
-    while (this->Parents[point] != point)
-    {
-      this->Parents[point] = this->Parents[this->Parents[point]];
-      point = this->Parents[point];
-    }
-    return point;
-  }
-
-  void Join(vtkIdType a, vtkIdType b) { this->Parents[this->Find(a)] = this->Find(b); }
-
-private:
-  std::vector<vtkIdType> Parents;
-};
-
 struct Cone
 {
   glm::dvec3 Sum{ 0.0 };
@@ -219,7 +193,7 @@ vtkVoxelMeshEdges::vtkVoxelMeshEdges(const std::vector<vtkSmartPointer<vtkPolyDa
 
 vtkSmartPointer<vtkPolyData> vtkVoxelMeshEdges::MakeCaps() const
 {
-  ConnectedPoints connected(this->Merged->GetNumberOfPoints());
+  vtkConnectedSets connected(this->Merged->GetNumberOfPoints());
   for (const Edge& edge : this->OddEdges)
   {
     connected.Join(edge.Low, edge.High);

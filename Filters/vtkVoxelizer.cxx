@@ -47,6 +47,7 @@ struct vtkVoxelizer::Internals
 {
   vtkVoxelMesh Mesh;
   vtkIdType NumberOfTriangles = 0;
+  vtkVoxelGrid Whole;
 };
 
 vtkCxxSetObjectMacro(vtkVoxelizer, ReferenceImage, vtkImageData);
@@ -290,6 +291,18 @@ std::int64_t vtkVoxelizer::GetBytesOfOutput(const vtkVoxelGrid& grid)
     grid.GetNumberOfVoxels() * this->GetBytesOfArrays();
 }
 
+std::int64_t vtkVoxelizer::EstimateBytes(const vtkVoxelGrid& part)
+{
+  constexpr std::int64_t wordBytes = 4;
+  return this->GetNumberOfWorkSlicemaps() * vtkSlicemap::GetNumberOfWords(part) * wordBytes +
+    (this->GetHostOutput() ? this->GetBytesOfOutput(part) : 0);
+}
+
+const vtkVoxelGrid& vtkVoxelizer::GetGridOfWhole() const
+{
+  return this->State->Whole;
+}
+
 vtkVoxelGrid vtkVoxelizer::GetRequestedPart(const vtkVoxelGrid& whole, vtkInformation* outputInfo)
 {
   vtkVoxelGrid part = whole;
@@ -317,7 +330,12 @@ int vtkVoxelizer::RunOnMesh(vtkDataObject* input,
   this->UsedBackend = BACKEND_AUTO;
   bool finished = false;
   const int result = this->RunInContext(
-    "voxelizing", [&] { return prepare(this->GetCheckedGrid(input)); },
+    "voxelizing",
+    [&]
+    {
+      this->State->Whole = this->GetCheckedGrid(input);
+      return prepare(this->State->Whole);
+    },
     [&]
     {
       const int backend = this->ResolveBackend();
@@ -364,8 +382,7 @@ int vtkVoxelizer::RequestData(
         return false;
       }
       this->CheckMemory(part);
-      this->Prepare(whole);
-      return true;
+      return this->Prepare(whole);
     },
     [&](vtkVoxelMesh& mesh)
     {

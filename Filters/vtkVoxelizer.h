@@ -178,6 +178,14 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+#ifndef __VTK_WRAP__
+  /**
+   * For those who drive it in slabs: bytes that a run for such a part of the output takes, output
+   * included, beside those of the mesh.
+   */
+  virtual std::int64_t EstimateBytes(const vtkVoxelGrid& part);
+#endif
+
 protected:
   vtkVoxelizer();
   ~vtkVoxelizer() override;
@@ -195,10 +203,10 @@ protected:
   virtual bool GetInputBounds(vtkDataObject* input, double bounds[6]);
 
   /**
-   * For what must happen before a run takes the context, such as rendering by VTK. Throws
-   * std::runtime_error.
+   * For what must happen before a run takes the context, such as rendering by VTK. Returns false
+   * when aborted. Throws std::runtime_error.
    */
-  virtual void Prepare(const vtkVoxelGrid& vtkNotUsed(whole)) {}
+  virtual bool Prepare(const vtkVoxelGrid& vtkNotUsed(whole)) { return true; }
 
   /**
    * Adds more arrays to the voxels of `grid`, which have been filled and read back, in the current
@@ -211,9 +219,26 @@ protected:
   }
 
   /**
+   * Number of slicemaps that a run has at a time on the grid of its output. Here: 1.
+   */
+  virtual int GetNumberOfWorkSlicemaps()
+  {
+    return 1;
+  }
+
+  /**
+   * The grid of the whole output during a run. What must not depend on which part is asked for is
+   * decided by it.
+   */
+  const vtkVoxelGrid& GetGridOfWhole() const;
+
+  /**
    * Bytes a voxel that these arrays take.
    */
-  virtual std::int64_t GetBytesOfArrays() { return 0; }
+  virtual std::int64_t GetBytesOfArrays()
+  {
+    return 0;
+  }
   std::int64_t GetBytesOfOutput(const vtkVoxelGrid& grid) override;
 
   /**
@@ -228,7 +253,10 @@ protected:
    * Whether polygons must be cut into triangles that cover them exactly (ear clipping), or into
    * fans, which keep parity and winding also for concave polygons, and are cheaper.
    */
-  virtual bool NeedsExactTriangulation() { return false; }
+  virtual bool NeedsExactTriangulation()
+  {
+    return false;
+  }
 
   /**
    * Backend to run: Backend, with Auto resolved for the current context. Reports an error and

@@ -124,7 +124,8 @@ vtkDataArray* GetScalars(vtkImageData* image)
   return scalars ? scalars : image->GetCellData()->GetScalars();
 }
 
-vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
+vtkSmartPointer<vtkDataArray> NewArray(
+  const vtkVoxelGrid& grid, int scalarType, vtkVoxelSpareArrays* spare)
 {
   const std::int64_t voxels = grid.GetNumberOfVoxels();
   if (scalarType == VTK_BIT)
@@ -140,26 +141,16 @@ vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType)
     bits->SetArray(memory, voxels, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
     return bits;
   }
-  return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(ArrayName, voxels, 1, vtkVoxelInitially::Zero);
+  return vtkVoxelNewLargeArray<vtkUnsignedCharArray>(
+    ArrayName, voxels, 1, vtkVoxelInitially::Zero, spare);
 }
 
 void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, vtkDataArray* array)
 {
-  const glm::ivec3 n = grid.GetDimensions();
-  const std::int64_t rows = std::int64_t(n.y) * n.z;
-  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
   if (auto* bits = vtkBitArray::SafeDownCast(array))
   {
-    // Eight rows end at a whole byte.
-    unsigned char* out = bits->GetPointer(0);
-    vtkSMPTools::For(0, (rows + 7) / 8,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        const std::int64_t first = std::int64_t(begin) * 8;
-        ExpandRowsToBits(words + first * wordsPerRow, wordsPerRow,
-          std::min<std::int64_t>(std::int64_t(end) * 8, rows) - first, n.x, out + first * n.x / 8);
-      });
+    ExpandToBits(words, grid, bits->GetPointer(0));
     return;
   }
   ExpandRows<vtkVoxelInitially::Zero>(
@@ -170,6 +161,21 @@ void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out)
 {
   ExpandRows<vtkVoxelInitially::Undefined>(words, grid, foregroundValue, out);
+}
+
+void ExpandToBits(const std::uint32_t* words, const vtkVoxelGrid& grid, unsigned char* out)
+{
+  const glm::ivec3 n = grid.GetDimensions();
+  const std::int64_t rows = std::int64_t(n.y) * n.z;
+  const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
+  // Eight rows end at a whole byte.
+  vtkSMPTools::For(0, (rows + 7) / 8,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      const std::int64_t first = std::int64_t(begin) * 8;
+      ExpandRowsToBits(words + first * wordsPerRow, wordsPerRow,
+        std::min<std::int64_t>(std::int64_t(end) * 8, rows) - first, n.x, out + first * n.x / 8);
+    });
 }
 
 void Overlay(const std::uint32_t* words, const vtkVoxelGrid& grid, int value, unsigned char* out)

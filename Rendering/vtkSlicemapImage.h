@@ -16,6 +16,7 @@
 
 class vtkDataArray;
 class vtkImageData;
+class vtkVoxelSpareArrays;
 struct vtkVoxelGrid;
 
 namespace vtkSlicemapImage
@@ -29,9 +30,11 @@ vtkDataArray* GetScalars(vtkImageData* image);
 
 /**
  * Room for one value a voxel of type VTK_UNSIGNED_CHAR or VTK_BIT, for Expand to fill,
- * named ArrayName. Null when there is no memory for it.
+ * named ArrayName; bytes in the memory of a spare array if one fits. Null when there is no memory
+ * for it.
  */
-vtkSmartPointer<vtkDataArray> NewArray(const vtkVoxelGrid& grid, int scalarType);
+vtkSmartPointer<vtkDataArray> NewArray(
+  const vtkVoxelGrid& grid, int scalarType, vtkVoxelSpareArrays* spare = nullptr);
 
 /**
  * For each byte of bits, the eight values it stands for, in memory order.
@@ -51,6 +54,12 @@ void Expand(
  */
 void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out);
+
+/**
+ * Bits to bits as vtkBitArray has them, row after row without gaps, the most significant one of a
+ * byte first.
+ */
+void ExpandToBits(const std::uint32_t* words, const vtkVoxelGrid& grid, unsigned char* out);
 
 /**
  * The value of the voxels whose bits are set; other bytes stay as they are.

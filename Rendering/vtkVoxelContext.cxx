@@ -17,6 +17,9 @@
 #if defined(__unix__) && !defined(__APPLE__)
 #include <dlfcn.h>
 #endif
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
 
 vtkStandardNewMacro(vtkVoxelContext);
 
@@ -25,6 +28,31 @@ namespace
 const char* const NoOpenGL =
   "There is no OpenGL: install Mesa's EGL and software renderer (on Debian: libegl1 libegl-mesa0 "
   "libgl1-mesa-dri), or set DISPLAY to an X server with GLX.";
+
+const char* const Forked =
+  "The process was forked after it had used OpenGL, whose threads are not in the new process: fork "
+  "before the first use, or start the process anew (in Python: the method \"spawn\" of "
+  "multiprocessing).";
+
+// Whether this is the process that made the object, and not one forked from it.
+class HomeProcess
+{
+public:
+#if defined(__unix__) || defined(__APPLE__)
+  bool IsHere() const
+  {
+    return getpid() == this->Id;
+  }
+
+private:
+  pid_t Id = getpid();
+#else
+  bool IsHere() const
+  {
+    return true;
+  }
+#endif
+};
 
 // Keeps VTK from printing and from ending the process, as its windows do on a bad display.
 class Quietly
@@ -182,6 +210,8 @@ public:
 
   vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
 
+  bool IsOfThisProcess() const { return this->Home.IsHere(); }
+
   bool Renew()
   {
     this->Window = nullptr;
@@ -192,6 +222,7 @@ public:
 private:
   SharedWindow() { this->Renew(); }
 
+  const HomeProcess Home;
   vtkSmartPointer<vtkOpenGLRenderWindow> Window;
 };
 
@@ -269,9 +300,9 @@ bool vtkVoxelContext::Prepare()
   else
   {
     window = SharedWindow::Get().GetWindow();
-    if (!window)
+    if (!window || !SharedWindow::Get().IsOfThisProcess())
     {
-      this->ErrorMessage = NoOpenGL;
+      this->ErrorMessage = window ? Forked : NoOpenGL;
       return false;
     }
   }

@@ -22,6 +22,9 @@
  * An OpenGL context can be current in one thread at a time, so all filters that share one must run
  * in the same thread.
  *
+ * A process that forks before it has used OpenGL may use it on both sides. When it forks later, the
+ * shared context is the parent's alone: in the child MakeCurrent() answers false.
+ *
  * @sa vtkSlicemap vtkVoxelizer
  */
 

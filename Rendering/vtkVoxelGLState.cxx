@@ -180,6 +180,21 @@ void vtkVoxelGLState::SaveFragmentOperations()
   glDepthMask(GL_TRUE);
   glDepthRange(0.0, 1.0);
 
+  this->StencilFaces = {
+    StencilFace{ GL_FRONT,
+      { GetInteger(GL_STENCIL_FUNC), GetInteger(GL_STENCIL_REF), GetInteger(GL_STENCIL_VALUE_MASK),
+        GetInteger(GL_STENCIL_FAIL), GetInteger(GL_STENCIL_PASS_DEPTH_FAIL),
+        GetInteger(GL_STENCIL_PASS_DEPTH_PASS), GetInteger(GL_STENCIL_WRITEMASK) } },
+    StencilFace{ GL_BACK,
+      { GetInteger(GL_STENCIL_BACK_FUNC), GetInteger(GL_STENCIL_BACK_REF),
+        GetInteger(GL_STENCIL_BACK_VALUE_MASK), GetInteger(GL_STENCIL_BACK_FAIL),
+        GetInteger(GL_STENCIL_BACK_PASS_DEPTH_FAIL), GetInteger(GL_STENCIL_BACK_PASS_DEPTH_PASS),
+        GetInteger(GL_STENCIL_BACK_WRITEMASK) } }
+  };
+  glStencilFunc(GL_ALWAYS, 0, ~0U);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glStencilMask(~0U);
+
   glGetIntegerv(GL_VIEWPORT, this->Viewport.data());
   glGetIntegerv(GL_SCISSOR_BOX, this->Scissor.data());
   if (this->Version >= 45)
@@ -219,6 +234,12 @@ void vtkVoxelGLState::RestoreFragmentOperations() const
   glDepthFunc(AsEnum(this->DepthFunction));
   glDepthMask(this->DepthMask);
   glDepthRange(this->DepthRange[0], this->DepthRange[1]);
+  for (const auto& [face, values] : this->StencilFaces)
+  {
+    glStencilFuncSeparate(face, AsEnum(values[0]), values[1], static_cast<GLuint>(values[2]));
+    glStencilOpSeparate(face, AsEnum(values[3]), AsEnum(values[4]), AsEnum(values[5]));
+    glStencilMaskSeparate(face, static_cast<GLuint>(values[6]));
+  }
   glViewport(this->Viewport[0], this->Viewport[1], this->Viewport[2], this->Viewport[3]);
   glScissor(this->Scissor[0], this->Scissor[1], this->Scissor[2], this->Scissor[3]);
   if (this->Version >= 45)

@@ -24,8 +24,8 @@ class vtkVoxelContextRecord;
  *   multisampling and its masks, sRGB, dithering, primitive restart, program point size, line and
  *   polygon smoothing, debug output (VTK prints it, though passes may expect and handle an error)
  * - logic operation, blend equation and function, color masks, depth function, mask and range,
- *   viewport, scissor box, clip control, polygon mode, cull face, front face, provoking vertex,
- *   clear color and depth
+ * stencil functions, operations and masks, viewport, scissor box, clip control, polygon mode, cull
+ * face, front face, provoking vertex, clear color and depth
  * - framebuffers for drawing and reading, program, program pipeline, vertex array
  * - texture units 0 to 7: textures 2D, 3D, 2D array and buffer, and samplers; the active unit
  * - buffer bindings: array, copy, pixel, texture, uniform and, where they exist, shader storage,
@@ -69,6 +69,11 @@ private:
     GLboolean Blend;
     std::array<GLboolean, 4> ColorMask;
   };
+  struct StencilFace
+  {
+    GLenum Face;
+    std::array<GLint, 7> Values;
+  };
   struct Binding
   {
     GLenum Target;
@@ -104,6 +109,7 @@ private:
   GLint DepthFunction = 0;
   GLboolean DepthMask = GL_TRUE;
   std::array<GLdouble, 2> DepthRange{};
+  std::array<StencilFace, 2> StencilFaces{};
   std::array<GLint, 4> Viewport{};
   std::array<GLint, 4> Scissor{};
   std::array<GLint, 2> ClipControl{};

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVoxelLargeArray.h"
 
+#include "vtkSMPTools.h"
+
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -34,4 +37,16 @@ void* vtkVoxelAllocate(std::int64_t bytes, vtkVoxelInitially content)
     PreferHugePages(memory, size);
   }
   return memory;
+}
+
+void vtkVoxelClear(void* memory, std::int64_t bytes)
+{
+  constexpr std::int64_t block = std::int64_t(1) << 21;
+  auto* first = static_cast<unsigned char*>(memory);
+  vtkSMPTools::For(0, (bytes + block - 1) / block,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      const std::int64_t offset = begin * block;
+      std::memset(first + offset, 0, std::min<std::int64_t>(bytes, end * block) - offset);
+    });
 }

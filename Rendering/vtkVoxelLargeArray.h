@@ -11,6 +11,7 @@
 
 #include "vtkAbstractArray.h"
 #include "vtkSmartPointer.h"
+#include "vtkVoxelSpareArrays.h"
 
 #include <cstdint>
 
@@ -24,15 +25,32 @@ enum class vtkVoxelInitially
 /// So many bytes, to be freed by free(); null when there is no memory.
 void* vtkVoxelAllocate(std::int64_t bytes, vtkVoxelInitially content);
 
-/// An array of a class with values of fixed size. Null when there is no memory for it.
+/// Writes zeros, with all threads.
+void vtkVoxelClear(void* memory, std::int64_t bytes);
+
+/**
+ * An array of a class with values of fixed size, in the memory of a spare one if there is one that
+ * fits. Null when there is no memory for it.
+ */
 template <typename Array>
 vtkSmartPointer<Array> vtkVoxelNewLargeArray(const char* name, std::int64_t tuples,
-  int components = 1, vtkVoxelInitially content = vtkVoxelInitially::Undefined)
+  int components = 1, vtkVoxelInitially content = vtkVoxelInitially::Undefined,
+  vtkVoxelSpareArrays* spare = nullptr)
 {
   using Value = typename Array::ValueType;
   const std::int64_t values = tuples * components;
-  auto* memory = static_cast<Value*>(
-    vtkVoxelAllocate(values * static_cast<std::int64_t>(sizeof(Value)), content));
+  const auto bytes = values * static_cast<std::int64_t>(sizeof(Value));
+  if (auto array = spare ? spare->Take<Array>(tuples, components) : nullptr)
+  {
+    array->SetName(name);
+    if (content == vtkVoxelInitially::Zero)
+    {
+      vtkVoxelClear(array->GetPointer(0), bytes);
+    }
+    array->Modified();
+    return array;
+  }
+  auto* memory = static_cast<Value*>(vtkVoxelAllocate(bytes, content));
   if (!memory)
   {
     return nullptr;
@@ -41,6 +59,10 @@ vtkSmartPointer<Array> vtkVoxelNewLargeArray(const char* name, std::int64_t tupl
   array->SetName(name);
   array->SetNumberOfComponents(components);
   array->SetArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  if (spare)
+  {
+    spare->Own(array);
+  }
   return array;
 }
 

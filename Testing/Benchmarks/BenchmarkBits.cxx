@@ -9,10 +9,12 @@
 //   Density/SIZE     vtkVoxelDensityNormals, bits on the GPU to arrays of density and normals for
 //                    every voxel; DensityCoarse/SIZE for every box, DensityCount/SIZE without
 //                    normals
-//   Chain/SIZE       two meshes to solids in the same grid, their difference, dilated by 3 voxels,
-//                    its density in boxes of SIZE^3 and normals for every voxel
-//   ChainVTK/8       the same with VTK's filters for images, dilated by an ellipsoid;
-//                    ChainVTKLines/8 by lines along x, y and z, which make a box
+//   Chain/SIZE       two meshes to solids in the same grid, their difference, dilated by 3 voxels
+//                    in a box, its density in boxes of SIZE^3 and normals for every voxel;
+//                    ChainSphere/SIZE dilated by a sphere
+//   ChainVTK/8       as ChainSphere with VTK's filters for images, the same voxels to dilate by;
+//                    ChainVTKLines/8 as Chain, by lines along x, y and z, which make the box
+// with the number of voxels of the dilated solid as Voxels,
 //
 // and level sets of a volume of 512^3 shorts, in memory to bits on the GPU, of so many values:
 //
@@ -43,6 +45,7 @@
 #include <vtkVoxelDensityNormals.h>
 #include <vtkVoxelMorphology.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <vector>
@@ -213,6 +216,7 @@ vtkSmartPointer<vtkSphereSource> MakeTool(const Mesh& mesh)
   return sphere;
 }
 
+template <int KernelType>
 void Chain(benchmark::State& state, const Mesh& mesh)
 {
   const auto tool = MakeTool(mesh);
@@ -232,6 +236,7 @@ void Chain(benchmark::State& state, const Mesh& mesh)
   vtkNew<vtkVoxelMorphology> dilation;
   dilation->SetInputConnection(difference->GetOutputPort());
   dilation->SetKernelSize(DilationSize, DilationSize, DilationSize);
+  dilation->SetKernelType(KernelType);
   dilation->HostOutputOff();
   const int size = static_cast<int>(state.range(0));
   vtkNew<vtkVoxelDensityNormals> density;
@@ -249,6 +254,7 @@ void Chain(benchmark::State& state, const Mesh& mesh)
   density->Update();
   state.counters["ReadBacks"] =
     static_cast<double>(vtkSlicemap::GetNumberOfReadBacks() - readBacks);
+  state.counters["Voxels"] = static_cast<double>(dilation->GetNumberOfFilledVoxels());
 }
 
 vtkSmartPointer<vtkPolyDataToImageStencil> MakeStencil(vtkPolyData* mesh, vtkImageData* grid)
@@ -257,6 +263,13 @@ vtkSmartPointer<vtkPolyDataToImageStencil> MakeStencil(vtkPolyData* mesh, vtkIma
   stencil->SetInputData(mesh);
   stencil->SetInformationInput(grid);
   return stencil;
+}
+
+/// Of an image of zeros and ones.
+double CountVoxels(vtkImageData* image)
+{
+  const auto* values = static_cast<const unsigned char*>(image->GetScalarPointer());
+  return static_cast<double>(std::count(values, values + image->GetNumberOfPoints(), 1));
 }
 
 /// Kernels follow one another.
@@ -323,6 +336,9 @@ void ChainVTK(benchmark::State& state, const Mesh& mesh)
     vtkNew<vtkImageNormalize> normals;
     normals->SetInputConnection(gradient->GetOutputPort());
     normals->Update();
+    state.PauseTiming();
+    state.counters["Voxels"] = CountVoxels(dilation->GetOutput());
+    state.ResumeTiming();
   }
 }
 }
@@ -341,8 +357,9 @@ int main(int argc, char* argv[])
   AddRows("Density", Density<false, DensityNormals::NORMALS_SYMMETRIC>, mesh, { 2, 4, 8, 16 }, 3);
   AddRows("DensityCoarse", Density<true, DensityNormals::NORMALS_SYMMETRIC>, mesh, { 2, 4, 8 }, 3);
   AddRows("DensityCount", Density<false, DensityNormals::NORMALS_OFF>, mesh, { 2, 4, 8 }, 3);
-  AddRows("Chain", Chain, mesh, { 2, 8 }, 3);
-  AddRows("ChainVTK", ChainVTK<false>, mesh, { 8 }, 1);
+  AddRows("Chain", Chain<Filter::KERNEL_BOX>, mesh, { 2, 8 }, 3);
+  AddRows("ChainSphere", Chain<Filter::KERNEL_SPHERE>, mesh, { 8 }, 3);
+  AddRows("ChainVTK", ChainVTK<false>, mesh, { 8 }, 1, 1); // takes a minute
   AddRows("ChainVTKLines", ChainVTK<true>, mesh, { 8 }, 1);
   AddRows("Union", Union, mesh, { Resolution }, 5);
   AddRows("LevelSets", LevelSets, { 1, 4 }, 5);

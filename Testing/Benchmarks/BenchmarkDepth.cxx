@@ -1,13 +1,18 @@
 // Times vtkDepthBufferVoxelizer on the objects that Karabassi, Papaioannou and Theoharis timed it
-// on, or rather on such as have as many triangles, and on meshes of ever more triangles. Mesh in
-// memory, upload included, to image in memory:
+// on, or rather on such as have as many triangles, on meshes of ever more triangles, and on ever
+// more triangles over each other. Mesh in memory, upload included, to image in memory:
 //
 //   OBJECT/Solid/SIZE, OBJECT/Surface/SIZE, OBJECT/Density/SIZE   along three axes, from the input
+//   OBJECT/Auto/SIZE    solid, along one axis where that does
+//   OBJECT/Again/SIZE   solid, of buffers that are there already
 //   OBJECT/Prop/SIZE    solid, of an actor
 //   OBJECT/Parity/SIZE  vtkSlicemapSolidVoxelizer, for comparison
-//   Sphere_TRIANGLES/Solid/256, Sphere_TRIANGLES/Parity/256  one shape from few to many triangles
+//   Sphere_TRIANGLES/METHOD/256   one shape from few to many triangles, METHOD Solid, Auto or
+//   Parity Shells_COUNT/METHOD/256       so many spheres of equally many triangles inside each
+//   other
 //
-// The counter "voxels" is the number of voxels that are set.
+// The counter "voxels" is the number of voxels that are set, "buffers" that of buffers drawn each
+// time. With --table it prints tables in Markdown, of the least of the times.
 
 #include "VoxelBenchmarks.h"
 
@@ -17,6 +22,12 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkSlicemapSolidVoxelizer.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
 using namespace VoxelBenchmarks;
 
 namespace
@@ -24,63 +35,208 @@ namespace
 const std::vector<int> Sizes = { 64, 128, 256, 512 };
 constexpr int SizeOfMany = 256;
 
-void Time(benchmark::State& state, vtkVoxelizer* voxelizer, const Mesh& mesh)
-{
-  voxelizer->SetReferenceImage(MakeGrid(mesh, static_cast<int>(state.range(0))));
-  voxelizer->Update();
-  for (auto _ : state)
-  {
-    Touch(mesh);
-    voxelizer->Update();
-  }
-  state.counters["voxels"] = static_cast<double>(voxelizer->GetNumberOfFilledVoxels());
-}
+using Voxelizer = vtkSmartPointer<vtkVoxelizer>;
+using Maker = Voxelizer (*)(const Mesh&);
 
 template <int OutputMode>
-void Depth(benchmark::State& state, const Mesh& mesh)
+Voxelizer MakeDepth(const Mesh& mesh)
 {
-  vtkNew<vtkDepthBufferVoxelizer> voxelizer;
+  auto voxelizer = vtkSmartPointer<vtkDepthBufferVoxelizer>::New();
   voxelizer->SetInputData(mesh);
   voxelizer->SetOutputMode(OutputMode);
-  Time(state, voxelizer, mesh);
+  return voxelizer;
 }
 
-void Prop(benchmark::State& state, const Mesh& mesh)
+Voxelizer MakeAuto(const Mesh& mesh)
+{
+  auto voxelizer = vtkSmartPointer<vtkDepthBufferVoxelizer>::New();
+  voxelizer->SetInputData(mesh);
+  voxelizer->AutomaticAxesOn();
+  return voxelizer;
+}
+
+Voxelizer MakeOfProp(const Mesh& mesh)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(mesh);
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  vtkNew<vtkDepthBufferVoxelizer> voxelizer;
+  auto voxelizer = vtkSmartPointer<vtkDepthBufferVoxelizer>::New();
   voxelizer->AddProp(actor);
-  Time(state, voxelizer, mesh);
+  return voxelizer;
 }
 
-void Parity(benchmark::State& state, const Mesh& mesh)
+Voxelizer MakeParity(const Mesh& mesh)
 {
-  vtkNew<vtkSlicemapSolidVoxelizer> voxelizer;
+  auto voxelizer = vtkSmartPointer<vtkSlicemapSolidVoxelizer>::New();
   voxelizer->SetInputData(mesh);
-  Time(state, voxelizer, mesh);
+  return voxelizer;
+}
+
+struct Method
+{
+  const char* Name;
+  Maker Make;
+  bool IsNewMesh;
+};
+
+const std::vector<Method> Methods = {
+  { "Solid", MakeDepth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SOLID>, true },
+  { "Surface", MakeDepth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SURFACE>, true },
+  { "Density", MakeDepth<vtkDepthBufferVoxelizer::OUTPUT_MODE_DENSITY>, true },
+  { "Auto", MakeAuto, true },
+  { "Again", MakeDepth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SOLID>, false },
+  { "Prop", MakeOfProp, true },
+  { "Parity", MakeParity, true },
+};
+
+bool IsOfMany(const Method& method)
+{
+  const std::string name = method.Name;
+  return name == "Solid" || name == "Auto" || name == "Parity";
+}
+
+void RunOnce(const Method& method, vtkVoxelizer* voxelizer, const Mesh& mesh)
+{
+  if (method.IsNewMesh)
+  {
+    Touch(mesh);
+  }
+  voxelizer->Modified();
+  voxelizer->Update();
+}
+
+void Time(benchmark::State& state, const Method& method, const Mesh& mesh)
+{
+  const auto voxelizer = method.Make(mesh);
+  voxelizer->SetReferenceImage(MakeGrid(mesh, static_cast<int>(state.range(0))));
+  voxelizer->Update();
+  auto* depth = vtkDepthBufferVoxelizer::SafeDownCast(voxelizer);
+  const int buffers = depth ? depth->GetNumberOfBufferDraws() : 0;
+  for (auto _ : state)
+  {
+    RunOnce(method, voxelizer, mesh);
+  }
+  state.counters["voxels"] = static_cast<double>(voxelizer->GetNumberOfFilledVoxels());
+  state.counters["buffers"] =
+    depth ? double(depth->GetNumberOfBufferDraws() - buffers) / double(state.iterations()) : 0.0;
+}
+
+std::string Milliseconds(const Method& method, const Mesh& mesh, int size, vtkIdType* voxels)
+{
+  const auto voxelizer = method.Make(mesh);
+  voxelizer->SetReferenceImage(MakeGrid(mesh, size));
+  voxelizer->Update();
+  constexpr int times = 7;
+  double least = 1e30;
+  for (int i = 0; i < times; ++i)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    RunOnce(method, voxelizer, mesh);
+    const std::chrono::duration<double, std::milli> passed =
+      std::chrono::steady_clock::now() - start;
+    least = std::min(least, passed.count());
+  }
+  *voxels = voxelizer->GetNumberOfFilledVoxels();
+  char text[32];
+  std::snprintf(text, sizeof(text), least < 10.0 ? "%.1f" : "%.0f", least);
+  return text;
+}
+
+std::map<std::string, Mesh> MeshesOfMany()
+{
+  std::map<std::string, Mesh> meshes;
+  for (const int resolution : { 16, 64, 256, 1024 })
+  {
+    const Mesh sphere = VoxelTestMeshes::Sphere({ 0, 0, 0 }, 1.0, resolution);
+    meshes["Sphere_" + std::to_string(sphere->GetNumberOfPolys())] = sphere;
+  }
+  for (const int shells : { 1, 4, 16 })
+  {
+    std::vector<Mesh> parts;
+    for (int i = 0; i < shells; ++i)
+    {
+      // The more shells, the fewer triangles each has.
+      parts.push_back(VoxelTestMeshes::Sphere({ 0, 0, 0 }, 1.0 - 0.5 * i / shells,
+        shells == 1     ? 256
+          : shells == 4 ? 128
+                        : 64));
+    }
+    meshes["Shells_" + std::to_string(shells)] = VoxelTestMeshes::Appended(parts);
+  }
+  return meshes;
+}
+
+/// Voxels and times of the paper's objects, and times of ever more triangles.
+void PrintTables()
+{
+  std::cout
+    << "| object | triangles | size | voxels, solid | surface | parity | ms, solid | surface "
+       "| density | one axis where it does | drawn already | prop | parity |\n"
+       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const auto& [name, mesh] : VoxelTestMeshes::PaperObjects())
+  {
+    for (const int size : { 64, 128, 256 })
+    {
+      std::map<std::string, vtkIdType> voxels;
+      std::string times;
+      for (const Method& method : Methods)
+      {
+        times += " " + Milliseconds(method, mesh, size, &voxels[method.Name]) + " |";
+      }
+      std::cout << "| " << name << " | " << mesh->GetNumberOfPolys() << " | " << size << "^3 | "
+                << voxels["Solid"] << " | " << voxels["Surface"] << " | " << voxels["Parity"]
+                << " |" << times << std::endl;
+    }
+  }
+  std::cout << "\n| mesh at 256^3 | triangles | ms, solid | one axis where it does | parity |\n"
+               "| --- | --- | --- | --- | --- |\n";
+  for (const auto& [name, mesh] : MeshesOfMany())
+  {
+    std::cout << "| " << name << " | " << mesh->GetNumberOfPolys() << " |";
+    for (const Method& method : Methods)
+    {
+      vtkIdType voxels = 0;
+      if (IsOfMany(method))
+      {
+        std::cout << " " << Milliseconds(method, mesh, SizeOfMany, &voxels) << " |";
+      }
+    }
+    std::cout << std::endl;
+  }
 }
 }
 
 int main(int argc, char* argv[])
 {
+  if (argc == 2 && std::string(argv[1]) == "--table")
+  {
+    PrintTables();
+    return 0;
+  }
+  const auto add = [](const std::string& name, const Method& method, const Mesh& mesh,
+                     const std::vector<int>& sizes)
+  {
+    AddRows(
+      name + "/" + method.Name,
+      [method, mesh](benchmark::State& state) { Time(state, method, mesh); }, sizes);
+  };
   for (const auto& [name, mesh] : VoxelTestMeshes::PaperObjects())
   {
-    AddRows(name + "/Solid", Depth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SOLID>, mesh, Sizes);
-    AddRows(name + "/Surface", Depth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SURFACE>, mesh, Sizes);
-    AddRows(name + "/Density", Depth<vtkDepthBufferVoxelizer::OUTPUT_MODE_DENSITY>, mesh, Sizes);
-    AddRows(name + "/Prop", Prop, mesh, Sizes);
-    AddRows(name + "/Parity", Parity, mesh, Sizes);
+    for (const Method& method : Methods)
+    {
+      add(name, method, mesh, Sizes);
+    }
   }
-  for (const int resolution : { 16, 64, 256, 1024 })
+  for (const auto& [name, mesh] : MeshesOfMany())
   {
-    const Mesh sphere = VoxelTestMeshes::Sphere({ 0, 0, 0 }, 1.0, resolution);
-    const std::string name = "Sphere_" + std::to_string(sphere->GetNumberOfPolys());
-    AddRows(
-      name + "/Solid", Depth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SOLID>, sphere, { SizeOfMany });
-    AddRows(name + "/Parity", Parity, sphere, { SizeOfMany });
+    for (const Method& method : Methods)
+    {
+      if (IsOfMany(method))
+      {
+        add(name, method, mesh, { SizeOfMany });
+      }
+    }
   }
   return RunRows(argc, argv);
 }

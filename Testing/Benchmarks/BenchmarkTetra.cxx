@@ -8,9 +8,11 @@
 //   Shell/MODEL        shells by 26 neighbours
 //   Bits/MODEL         one variant that stays on the GPU
 //   First/MODEL        one variant of a mesh that was not there before
-//   Layers/MODEL, Slices/MODEL   batches by the two ways of the Raster backend
+//   Columns/MODEL, Layers/MODEL, Slices/MODEL   batches by the ways of the Raster backend
 //   Stencil/MODEL      each variant's mesh, made on the CPU, by vtkPolyDataToImageStencil and
 //                      vtkImageStencilToImage, unsigned char
+//
+// With --models=FOLDER alone it writes the models as .ply files, for rivals_variants.py.
 
 #include "VoxelBenchmarks.h"
 
@@ -18,12 +20,15 @@
 #include <vtkImageStencilToImage.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPLYWriter.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataToImageStencil.h>
 #include <vtkTetraCoveringVoxelizer.h>
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkUnsignedCharArray.h>
+
+#include <string>
 
 using namespace VoxelBenchmarks;
 
@@ -142,15 +147,34 @@ void Stencil(benchmark::State& state, const Mesh& mesh)
   }
   state.SetItemsProcessed(state.iterations());
 }
+
+/// The models as files, for rivals.
+void WriteModels(const MeshTable& models, const std::string& folder)
+{
+  for (const auto& [name, mesh] : models)
+  {
+    vtkNew<vtkPLYWriter> writer;
+    writer->SetInputData(mesh);
+    writer->SetFileName((folder + "/" + name + ".ply").c_str());
+    writer->SetFileTypeToBinary();
+    writer->Write();
+  }
+}
 }
 
 int main(int argc, char* argv[])
 {
+  const std::string option = "--models=";
   MeshTable meshes = MeshesOfFiles();
   MeshTable models{ { "10k", VoxelTestMeshes::TorusKnot(1.0, 40, 125) },
     { "265k", VoxelTestMeshes::TorusKnot(1.0, 250, 530) } };
   models["100k"] =
     meshes.count("dragon") ? meshes["dragon"] : VoxelTestMeshes::TorusKnot(1.0, 100, 500);
+  if (argc == 2 && std::string(argv[1]).compare(0, option.size(), option) == 0)
+  {
+    WriteModels(models, std::string(argv[1]).substr(option.size()));
+    return 0;
+  }
   const std::vector<int> sizes = { 64, 256 };
   for (const auto& [name, mesh] : models)
   {
@@ -159,6 +183,7 @@ int main(int argc, char* argv[])
     AddRows("Shell/" + name, Shell, mesh, sizes);
     AddRows("Bits/" + name, Bits, mesh, sizes);
     AddRows("First/" + name, First, mesh, sizes);
+    AddRows("Columns/" + name, Raster<Voxelizer::RASTER_COLUMNS>, mesh, sizes, 1);
     AddRows("Layers/" + name, Raster<Voxelizer::RASTER_LAYERS>, mesh, sizes, 1);
     AddRows("Slices/" + name, Raster<Voxelizer::RASTER_SLICES>, mesh, sizes, 1);
     AddRows("Stencil/" + name, Stencil, mesh, sizes, 3);

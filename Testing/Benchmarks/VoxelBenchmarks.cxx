@@ -83,9 +83,8 @@ vtkSmartPointer<vtkImageData> MakeGrid(vtkPolyData* mesh, int resolution)
 
 //------------------------------------------------------------------------------------------------
 void AddRows(const std::string& name, const std::function<void(benchmark::State&)>& function,
-  const std::vector<int>& sizes, int iterations)
+  const std::vector<int>& sizes, int iterations, int repetitions)
 {
-  constexpr int repetitions = 5;
   for (const int size : sizes)
   {
     const int several = size < 512 ? 5 : 2;

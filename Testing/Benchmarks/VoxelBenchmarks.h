@@ -41,15 +41,16 @@ vtkSmartPointer<vtkImageData> MakeGrid(vtkPolyData* mesh, int resolution);
 
 /// Rows NAME/SIZE for the sizes, in real time. Iterations: 0, several, and fewer from 512 on.
 void AddRows(const std::string& name, const std::function<void(benchmark::State&)>& function,
-  const std::vector<int>& sizes, int iterations = 0);
+  const std::vector<int>& sizes, int iterations = 0, int repetitions = 5);
 
 /// Rows NAME/SIZE of function(state, mesh).
 template <typename Function>
 void AddRows(const std::string& name, Function function, const Mesh& mesh,
-  const std::vector<int>& sizes, int iterations = 0)
+  const std::vector<int>& sizes, int iterations = 0, int repetitions = 5)
 {
   AddRows(
-    name, [mesh, function](benchmark::State& state) { function(state, mesh); }, sizes, iterations);
+    name, [mesh, function](benchmark::State& state) { function(state, mesh); }, sizes, iterations,
+    repetitions);
 }
 
 /// Runs the rows; what main returns.

@@ -1,4 +1,4 @@
-"""Prints as Markdown what the benchmarks, rivals.py and rivals_bits.py measured: milliseconds, and how many
+"""Prints as Markdown what the benchmarks and the rivals_*.py measured: milliseconds, and how many
 times faster.
 
     compare.py RESULTS.json ...
@@ -42,6 +42,15 @@ VOXEL_RATIOS = tuple(
     for fast, what in (("Filters", "image"), ("FilterBits", "bits")))
 
 
+# Of BenchmarkTetra, whose rows have a batch of variants each.
+MODELS = ("10k", "100k", "265k")
+VARIANTS = (
+    ("Batch", "solids, one-model batch"), ("Rotated", "the same, rotated only as the rivals are"), ("Bits", "solids, direct, bits on the GPU"), ("Shell", "shells, batch"),
+    ("Columns", "solids, Raster backend"), ("Layers", "solids, Raster backend by layers"),
+    ("PyVista", "PyVista"), ("PythonStencil", "vtkPolyDataToImageStencil of PyVista's VTK"),
+    ("Stencil", "vtkPolyDataToImageStencil"), ("trimesh", "trimesh"))
+
+
 def load(files):
     times = {}
     for file in files:
@@ -49,7 +58,10 @@ def load(files):
         for row in results.get("benchmarks", []):
             if row["run_type"] == "iteration":
                 name = row["run_name"].split("/iterations")[0]
-                times[name] = min(times.get(name, float("inf")), row["real_time"])
+                time = row["real_time"]
+                if name.split("/")[1:2] and name.split("/")[1] in MODELS:
+                    time = 1e3 / row["items_per_second"]
+                times[name] = min(times.get(name, float("inf")), time)
         times.update({k: v for k, v in results.items() if "/" in k})
     return times
 
@@ -111,6 +123,15 @@ def main():
     for name, label in LEVEL_SETS:
         if name in times:
             print(f"\n512^3, {label}: {number(times[name])} ms.")
+    rivals = [kind for kind, _ in VARIANTS if kind in ("PyVista", "PythonStencil", "Stencil", "trimesh")]
+    table("variants a second", [
+        (f"{model} triangles, {label}", {size: 1e3 / t for size, t in by_size(times, kind, model).items()})
+        for model in MODELS for kind, label in VARIANTS])
+    table("times more variants than the best rival", [
+        (f"{model} triangles, {label}", {
+            size: min(by_size(times, rival, model).get(size, float("inf")) for rival in rivals) / t
+            for size, t in by_size(times, kind, model).items()})
+        for model in MODELS if by_size(times, "PyVista", model) for kind, label in VARIANTS[:3]])
     tables(times, "Hybrid", "thin surface by strategy", WAYS, ())
 
 

@@ -83,7 +83,7 @@ bool CheckMesh(const std::string& name, vtkPolyData* mesh, vtkImageData* grid)
 bool CheckExact(const std::string& name, vtkPolyData* mesh, const AxesUsed& axes)
 {
   bool ok = true;
-  for (const int n : { 64, 128 })
+  for (const int n : { 64, 128, 256 })
   {
     const Image grid = MakeGridAround(mesh, n);
     vtkNew<vtkDepthBufferVoxelizer> voxelizer;

@@ -7,9 +7,11 @@
 
 #include <vtkActor.h>
 #include <vtkAssembly.h>
+#include <vtkCamera.h>
 #include <vtkDataArray.h>
 #include <vtkDepthBufferVoxelizer.h>
 #include <vtkImageData.h>
+#include <vtkLightCollection.h>
 #include <vtkNew.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPointData.h>
@@ -119,6 +121,8 @@ void TestSharedActor(VoxelTestChecks& checks, bool inItsWindow)
     voxelizer->AddProp(actor);
   }
   const vtkMTimeType time = actor->GetMTime();
+  const vtkMTimeType timeOfCamera = renderer->GetActiveCamera()->GetMTime();
+  const vtkMTimeType timeOfLight = renderer->GetLights()->GetMTime();
   for (int run = 0; run < 2; ++run)
   {
     voxelizer->SetPadding(run);
@@ -127,6 +131,8 @@ void TestSharedActor(VoxelTestChecks& checks, bool inItsWindow)
     checks.Check(name + ": the picture is as before", picture() == before);
   }
   checks.Equal(name + ": the actor's time", actor->GetMTime(), time);
+  checks.Equal(name + ": the camera's time", renderer->GetActiveCamera()->GetMTime(), timeOfCamera);
+  checks.Equal(name + ": the lights' time", renderer->GetLights()->GetMTime(), timeOfLight);
   checks.Equal(name + ": size of the window", window->GetSize()[0], 64);
   checks.Equal(name + ": renderers of the window", window->GetRenderers()->GetNumberOfItems(), 1);
 }

@@ -17,11 +17,13 @@
 
 using namespace VoxelReference;
 using namespace VoxelTestMeshes;
-using VoxelSolidTests::Backends;
 using VoxelSolidTests::MakeGrid;
 using VoxelSolidTests::MakeGridAround;
+using VoxelTetraTests::AllWays;
 using VoxelTetraTests::CheckSame;
 using VoxelTetraTests::MakeVoxelizer;
+using VoxelTetraTests::NameOf;
+using VoxelTetraTests::Voxelizer;
 
 namespace
 {
@@ -30,15 +32,15 @@ bool CheckClosed(const std::string& name, vtkPolyData* mesh, vtkImageData* grid)
   const Volume solid = VoxelTetraTests::Solid(mesh, grid);
   const Volume scanline = CrossingParityReference(mesh, Grid::FromImage(grid));
   bool good = true;
-  for (const int backend : Backends)
+  for (const auto& way : AllWays)
   {
-    const auto voxelizer = MakeVoxelizer(mesh, grid, backend);
+    const auto voxelizer = MakeVoxelizer(mesh, grid, way);
     good &= CheckSame(name + " beside vtkSlicemapSolidVoxelizer", voxelizer, solid, mesh);
     good &= CheckSame(name + " beside the scanline", voxelizer, scanline, mesh);
-    if (voxelizer->GetNumberOfOpenEdges() != 0 || voxelizer->GetUsedBackend() != backend)
+    if (voxelizer->GetNumberOfOpenEdges() != 0 || voxelizer->GetUsedBackend() != way.Backend)
     {
       std::cerr << name << ": " << voxelizer->GetNumberOfOpenEdges() << " open edges, backend "
-                << voxelizer->GetUsedBackend() << " in place of " << backend << "\n";
+                << voxelizer->GetUsedBackend() << " in place of " << way.Backend << "\n";
       good = false;
     }
   }
@@ -87,9 +89,9 @@ bool TestPolygons()
   {
     const auto grid = MakeGridAround(polygons, 70);
     const Volume expected = VoxelTetraTests::Solid(triangles, grid);
-    for (const int backend : Backends)
+    for (const auto& way : AllWays)
     {
-      good &= CheckSame(name, MakeVoxelizer(polygons, grid, backend), expected, triangles);
+      good &= CheckSame(name, MakeVoxelizer(polygons, grid, way), expected, triangles);
     }
   }
   return good;
@@ -110,16 +112,16 @@ bool TestDefinition()
   {
     const auto grid = MakeGridAround(mesh, 26);
     const Volume expected = VoxelTetraTests::XorOfTetrahedra(mesh, Grid::FromImage(grid));
-    for (const int backend : Backends)
+    for (const auto& way : AllWays)
     {
-      const auto voxelizer = MakeVoxelizer(mesh, grid, backend);
+      const auto voxelizer = MakeVoxelizer(mesh, grid, way);
       voxelizer->CheckWatertightOff();
       // Facets at the origin are part of the surface that voxels may lie on.
-      const std::string label = name + ", " + VoxelSolidTests::NameOf(backend);
+      const std::string label = name + ", " + NameOf(voxelizer);
       voxelizer->Update();
       const Difference difference = Compare(voxelizer->GetOutput(), expected);
       const std::size_t allowed =
-        backend == vtkVoxelizer::BACKEND_COMPUTE ? 0 : expected.CountNonZero() / 50;
+        way.Method == Voxelizer::RASTER_LAYERS ? expected.CountNonZero() / 50 : 0;
       if (!difference.IsComparable() || difference.Count() > allowed)
       {
         std::cerr << label << ": " << difference.Summary() << "\n";
@@ -163,10 +165,10 @@ bool TestTies()
 {
   bool good = CheckTies("box on voxel centres", Box({ 4, -5, 6 }, { 20, 30, 40 }));
   good &= CheckTies("sphere on halves", OnLattice(Sphere({ 1, 2, 3 }, 25.0), 0.5));
-  for (const int backend : Backends)
+  for (const auto& way : AllWays)
   {
     const auto box = MakeVoxelizer(Box({ 0, 0, 0 }, { 4, 4, 4 }),
-      MakeGrid({ -2, 7, -2, 7, -2, 7 }, { 0, 0, 0 }, { 1, 1, 1 }), backend);
+      MakeGrid({ -2, 7, -2, 7, -2, 7 }, { 0, 0, 0 }, { 1, 1, 1 }), way);
     box->Update();
     const Volume voxels = OccupancyOf(box->GetOutput());
     for (std::size_t i = 0; i < voxels.Grid.NumberOfVoxels(); ++i)
@@ -179,8 +181,8 @@ bool TestTies()
       if ((voxels.Voxels[i] != 0) != inside)
       {
         const Voxel v = voxels.Grid.VoxelAt(i);
-        std::cerr << "box [0, 4]^3, " << VoxelSolidTests::NameOf(backend) << ": wrong at " << v[0]
-                  << ", " << v[1] << ", " << v[2] << "\n";
+        std::cerr << "box [0, 4]^3, " << NameOf(box) << ": wrong at " << v[0] << ", " << v[1]
+                  << ", " << v[2] << "\n";
         return false;
       }
     }
@@ -198,9 +200,9 @@ bool TestComposite()
   const Mesh both = Appended({ first, second });
   const auto grid = MakeGridAround(both, 50);
   bool good = true;
-  for (const int backend : Backends)
+  for (const auto& way : AllWays)
   {
-    const auto voxelizer = MakeVoxelizer(both, grid, backend);
+    const auto voxelizer = MakeVoxelizer(both, grid, way);
     voxelizer->SetInputDataObject(blocks);
     good &= CheckSame("composite", voxelizer, VoxelTetraTests::Solid(both, grid), both);
   }
@@ -219,11 +221,11 @@ bool TestLargeGrids()
     const auto grid = MakeGrid({ 0, n[0] - 1, 0, n[1] - 1, 0, n[2] - 1 },
       { 0.3 / n[0], 0.4 / n[1], 0.2 / n[2] }, { 1.0 / n[0], 1.0 / n[1], 1.0 / n[2] });
     const Volume expected = CrossingParityReference(soup, Grid::FromImage(grid));
-    for (const int backend : Backends)
+    for (const auto& way : AllWays)
     {
       good &= CheckSame("soup seed 2 at " + std::to_string(n[0]) + " x " + std::to_string(n[1]) +
           " x " + std::to_string(n[2]),
-        MakeVoxelizer(soup, grid, backend), expected, soup);
+        MakeVoxelizer(soup, grid, way), expected, soup);
     }
   }
   return good;
@@ -246,13 +248,13 @@ bool TestParts(vtkPolyData* bunny)
 {
   const auto grid = MakeGridAround(bunny, 50);
   bool good = true;
-  for (const int backend : Backends)
+  for (const auto& way : AllWays)
   {
-    const auto voxelizer = MakeVoxelizer(bunny, grid, backend);
+    const auto voxelizer = MakeVoxelizer(bunny, grid, way);
     voxelizer->SetRotationModeToUniform();
     voxelizer->SetDisplacementAmplitude(0.01);
     voxelizer->SafeScaleToFitOn();
-    const std::string name = "parts, " + VoxelSolidTests::NameOf(backend);
+    const std::string name = "parts, " + NameOf(voxelizer);
     good &= VoxelSolidTests::CheckParts(name, voxelizer, 4, 6);
     voxelizer->SetShell(18);
     good &= VoxelSolidTests::CheckParts(name + ", shells", voxelizer, 5, 6);

@@ -10,7 +10,8 @@
 // - ordinary VTK rendering works off-screen without a display, also with our work in between;
 // - a window without OpenGL is refused with one sentence, and so is a machine without, while X
 //   stands in for a missing EGL;
-// - the shared context comes back when somebody closed its EGL display.
+// - the shared context comes back when somebody closed its EGL display;
+// - a process that was forked after the first use is told so, and the first one goes on.
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -99,9 +100,16 @@ const std::vector<Parameter> Parameters = { PARAMETER(GL_ACTIVE_TEXTURE),
   PARAMETER(GL_PRIMITIVE_RESTART), PARAMETER(GL_PROGRAM_POINT_SIZE), PARAMETER(GL_PROVOKING_VERTEX),
   PARAMETER(GL_RASTERIZER_DISCARD), PARAMETER(GL_READ_FRAMEBUFFER_BINDING),
   PARAMETER(GL_SAMPLE_MASK), PARAMETER(GL_SCISSOR_BOX), PARAMETER(GL_SCISSOR_TEST),
-  PARAMETER(GL_STENCIL_TEST), PARAMETER(GL_TEXTURE_BUFFER), PARAMETER(GL_UNIFORM_BUFFER_BINDING),
-  PARAMETER(GL_UNPACK_ALIGNMENT), PARAMETER(GL_UNPACK_IMAGE_HEIGHT),
-  PARAMETER(GL_UNPACK_ROW_LENGTH), PARAMETER(GL_VERTEX_ARRAY_BINDING), PARAMETER(GL_VIEWPORT) };
+  PARAMETER(GL_STENCIL_BACK_FAIL), PARAMETER(GL_STENCIL_BACK_FUNC),
+  PARAMETER(GL_STENCIL_BACK_PASS_DEPTH_FAIL), PARAMETER(GL_STENCIL_BACK_PASS_DEPTH_PASS),
+  PARAMETER(GL_STENCIL_BACK_REF), PARAMETER(GL_STENCIL_BACK_VALUE_MASK),
+  PARAMETER(GL_STENCIL_BACK_WRITEMASK), PARAMETER(GL_STENCIL_FAIL), PARAMETER(GL_STENCIL_FUNC),
+  PARAMETER(GL_STENCIL_PASS_DEPTH_FAIL), PARAMETER(GL_STENCIL_PASS_DEPTH_PASS),
+  PARAMETER(GL_STENCIL_REF), PARAMETER(GL_STENCIL_TEST), PARAMETER(GL_STENCIL_VALUE_MASK),
+  PARAMETER(GL_STENCIL_WRITEMASK), PARAMETER(GL_TEXTURE_BUFFER),
+  PARAMETER(GL_UNIFORM_BUFFER_BINDING), PARAMETER(GL_UNPACK_ALIGNMENT),
+  PARAMETER(GL_UNPACK_IMAGE_HEIGHT), PARAMETER(GL_UNPACK_ROW_LENGTH),
+  PARAMETER(GL_VERTEX_ARRAY_BINDING), PARAMETER(GL_VIEWPORT) };
 
 const std::vector<Parameter> ComputeParameters = { PARAMETER(GL_ATOMIC_COUNTER_BUFFER_BINDING),
   PARAMETER(GL_DISPATCH_INDIRECT_BUFFER_BINDING), PARAMETER(GL_DRAW_INDIRECT_BUFFER_BINDING),
@@ -246,6 +254,12 @@ public:
     glDepthFunc(odd ? GL_ALWAYS : GL_GREATER);
     glDepthMask(odd);
     glDepthRange(0.25, odd ? 0.5 : 0.75);
+    glStencilFuncSeparate(GL_FRONT, odd ? GL_LESS : GL_EQUAL, odd ? 3 : 4, odd ? 0x0f : 0x3f);
+    glStencilFuncSeparate(GL_BACK, odd ? GL_NEVER : GL_LEQUAL, odd ? 5 : 6, odd ? 0x1f : 0x7f);
+    glStencilOpSeparate(GL_FRONT, odd ? GL_INVERT : GL_ZERO, GL_REPLACE, odd ? GL_DECR : GL_INCR);
+    glStencilOpSeparate(GL_BACK, odd ? GL_INCR : GL_DECR, GL_INVERT, odd ? GL_ZERO : GL_REPLACE);
+    glStencilMaskSeparate(GL_FRONT, odd ? 0x33 : 0x55);
+    glStencilMaskSeparate(GL_BACK, odd ? 0x77 : 0x11);
     glClearColor(0.25f, 0.5f, odd ? 0.0f : 1.0f, 1.0f);
     glClearDepth(odd ? 0.125 : 0.5);
     glViewport(1, 2, 30 + seed, 40);
@@ -716,6 +730,14 @@ void InChild(const std::string& what, void (*check)())
   Expect(WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS, what);
 }
 
+void TestForkedLate()
+{
+  vtkNew<vtkVoxelContext> context;
+  Expect(!context->MakeCurrent(), "the context is the parent's");
+  const std::string message = context->GetErrorMessage();
+  Expect(message.find("forked") != std::string::npos, "why: " + message);
+}
+
 void HideEGLDrivers()
 {
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent", 1);
@@ -822,6 +844,11 @@ int TestVoxelContext(int argc, char* argv[])
   vtkNew<vtkVoxelContext> context;
   std::cout << context->GetRendererName() << ", OpenGL " << context->GetVersion() / 10.0
             << (context->SupportsCompute() ? " with" : " without") << " compute shaders\n";
+
+#ifdef __unix__
+  InChild("a process forked too late has no context", TestForkedLate);
+  Expect(context->MakeCurrent(), "the first process keeps its context");
+#endif
 
   // Left to the end of the process, where sanitizers watch.
   {

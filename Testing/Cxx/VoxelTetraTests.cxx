@@ -11,9 +11,17 @@
 #include <algorithm>
 
 using namespace VoxelReference;
+using VoxelSolidTests::MakeGrid;
 
 namespace VoxelTetraTests
 {
+
+vtkSmartPointer<Voxelizer> MakeVoxelizer(vtkPolyData* mesh, vtkImageData* grid, const Way& way)
+{
+  auto voxelizer = MakeVoxelizer(mesh, grid, way.Backend);
+  voxelizer->SetRasterMethod(way.Method);
+  return voxelizer;
+}
 
 vtkSmartPointer<Voxelizer> MakeVoxelizer(vtkPolyData* mesh, vtkImageData* grid, int backend)
 {
@@ -22,6 +30,72 @@ vtkSmartPointer<Voxelizer> MakeVoxelizer(vtkPolyData* mesh, vtkImageData* grid, 
   voxelizer->SetReferenceImage(grid);
   voxelizer->SetBackend(backend);
   return voxelizer;
+}
+
+std::string NameOf(Voxelizer* voxelizer)
+{
+  const char* const methods[] = { " by slices", " by layers", "" };
+  const int backend = voxelizer->GetBackend();
+  return VoxelSolidTests::NameOf(backend) +
+    (backend == vtkVoxelizer::BACKEND_RASTER ? methods[voxelizer->GetRasterMethod()] : "");
+}
+
+std::vector<Settings> AllSettings()
+{
+  return {
+    { "fixed rotation", [](Voxelizer* v) { v->SetFixedRotation(37.0, 1.0, 2.0, -0.5); } },
+    { "any rotation", [](Voxelizer* v) { v->SetRotationModeToUniform(); } },
+    { "about an axis",
+      [](Voxelizer* v)
+      {
+        v->SetRotationModeToAxis();
+        v->SetRotationAxis(1.0, 0.5, 3.0);
+      } },
+    { "scaled", [](Voxelizer* v) { v->SetScaleRange(0.5, 1.5); } },
+    { "displaced",
+      [](Voxelizer* v)
+      {
+        v->SetDisplacementAmplitude(0.02);
+        v->SetSeed(5);
+      } },
+    { "displaced normally",
+      [](Voxelizer* v)
+      {
+        v->SetDisplacementAmplitude(0.02);
+        v->SetDisplacementDistributionToNormal();
+      } },
+    { "displaced along normals",
+      [](Voxelizer* v)
+      {
+        v->SetDisplacementAmplitude(0.03);
+        v->SetDisplacementDirectionToAlongNormal();
+      } },
+    { "fitted", [](Voxelizer* v) { v->SafeScaleToFitOn(); } },
+    { "all at once",
+      [](Voxelizer* v)
+      {
+        v->SetRotationModeToUniform();
+        v->SetScaleRange(0.5, 1.5);
+        v->SetDisplacementAmplitude(0.01);
+        v->SetDisplacementDistributionToNormal();
+        v->SetDisplacementDirectionToAlongNormal();
+        v->SafeScaleToFitOn();
+        v->SetSeed(-3);
+      } },
+  };
+}
+
+vtkSmartPointer<vtkImageData> MakeCube(vtkPolyData* mesh, int n, int margin)
+{
+  double centre[3];
+  mesh->GetCenter(centre);
+  const double* b = mesh->GetBounds();
+  const double size = std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] }) / n;
+  const int voxels = n + 2 * margin;
+  const double first = -0.5 * (voxels - 1) + 0.0731;
+  return MakeGrid({ 0, voxels - 1, 0, voxels - 1, 0, voxels - 1 },
+    { centre[0] + first * size, centre[1] + first * size, centre[2] + first * size },
+    { size, size, size });
 }
 
 std::vector<int> AvailableBackends()
@@ -73,9 +147,11 @@ bool CheckSame(
   const std::string& name, Voxelizer* voxelizer, const Volume& expected, vtkPolyData* mesh)
 {
   voxelizer->Update();
-  const int backend = voxelizer->GetUsedBackend();
-  return Report(name + ", " + VoxelSolidTests::NameOf(backend),
-    Compare(voxelizer->GetOutput(), expected), mesh, VoxelSolidTests::ToleranceOf(backend));
+  const bool isExact = voxelizer->GetUsedBackend() == vtkVoxelizer::BACKEND_COMPUTE ||
+    voxelizer->GetRasterMethod() == Voxelizer::RASTER_COLUMNS;
+  return Report(name + ", " + NameOf(voxelizer), Compare(voxelizer->GetOutput(), expected), mesh,
+    VoxelSolidTests::ToleranceOf(
+      isExact ? vtkVoxelizer::BACKEND_COMPUTE : vtkVoxelizer::BACKEND_RASTER));
 }
 
 }

@@ -741,7 +741,7 @@ class TestDepth(ProgramTest):
         return int(report["filled voxels"].split()[0])
 
     def test_box(self):
-        for axes in [], ["--axes", "z"], ["--axes", "y,x"]:
+        for axes in [], ["--axes", "z"], ["--axes", "y,x"], ["--axes", "auto"]:
             with self.subTest(axes):
                 self.assertEqual(self.filled("--voxel-size", 0.5, *axes, mesh=self.mesh()), 4 * 6 * 8)
 
@@ -749,6 +749,8 @@ class TestDepth(ProgramTest):
         counts = [self.filled("--resolution", 40, "--axes", axes, mesh=BUNNY) for axes in ("x", "x,y", "x,y,z")]
         self.assertEqual(counts, sorted(counts, reverse=True))
         self.assertLess(counts[-1], counts[0])
+        # No single axis shows all of it.
+        self.assertEqual(self.filled("--resolution", 40, "--axes", "auto", mesh=BUNNY), counts[-1])
 
 
 class TestSurface(ProgramTest):

@@ -1,8 +1,9 @@
 """Proves that .vdb files are what other tools expect: OpenVDB's vdb_print lists their grids, types, places and
-voxels; that grids of arrays come back to Python as they were; and that vtkvoxelize writes and reads them.
+voxels, and its module for Python reads them; that grids of arrays come back to Python as they were; and that vtkvoxelize writes and reads them.
 
     TestVDBVoxels.py --program vtkvoxelize -D DATA_DIRECTORY [-T SCRATCH_DIRECTORY]
 """
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -102,6 +103,29 @@ class VDBVoxels(unittest.TestCase):
                     self.assertIn("23,400", long.stdout)
                 else:
                     self.assertIn("level set", long.stdout)
+
+    def test_python_module(self):
+        """OpenVDB's own module for Python, which is called openvdb from version 12 on."""
+        module = next((importlib.import_module(name) for name in ("openvdb", "pyopenvdb")
+                       if importlib.util.find_spec(name)), None)
+        if not module:
+            self.skipTest("there is no module of OpenVDB for Python")
+        arrays = self.write("out.vdb")
+        name = str(self.folder / "out.vdb")
+        grids = {grid.name: grid for grid in module.readAllGridMetadata(name)}
+        self.assertEqual(set(grids), set(arrays))
+        occupancy = module.read(name, "Occupancy")
+        self.assertEqual(occupancy.activeVoxelCount(), 23400)
+        self.assertEqual(tuple(map(tuple, occupancy.evalActiveVoxelBoundingBox())), ((-2, -1, 11), (127, 18, 19)))
+        found = np.zeros((140, 30, 19), bool)
+        occupancy.copyToArray(found, ijk=(-5, -6, 7))
+        self.assertTrue(np.array_equal(found.transpose(2, 1, 0).ravel(), arrays["Occupancy"] != 0))
+        # Index to world: 0.5 a voxel, x along y and y against x.
+        self.assertTrue(np.allclose(occupancy.transform.indexToWorld((2, 4, 6)), (1 + 2, 2 - 1, 3 + 3)))
+        density = module.read(name, "Density")
+        values = np.zeros((140, 30, 19), np.float32)
+        density.copyToArray(values, ijk=(-5, -6, 7))
+        self.assertTrue(np.array_equal(values.transpose(2, 1, 0).ravel(), arrays["Density"]))
 
     def test_round_trip(self):
         for compression in 0, 1:

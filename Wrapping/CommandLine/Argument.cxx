@@ -75,6 +75,28 @@ double Argument::AsReal(double lowest) const
   return value;
 }
 
+std::int64_t Argument::AsBytes() const
+{
+  constexpr double kibi = 1024.0;
+  constexpr double most = 9e18;
+  const std::string units = "KMGT";
+  std::string number = this->Text;
+  double bytes = 1.0;
+  if (const auto unit = number.empty() ? std::string::npos : units.find(number.back());
+      unit != std::string::npos)
+  {
+    bytes = std::pow(kibi, static_cast<double>(unit + 1));
+    number.pop_back();
+  }
+  char* rest = nullptr;
+  bytes *= std::strtod(number.c_str(), &rest);
+  if (number.empty() || *rest != '\0' || !(bytes >= 1.0 && bytes < most))
+  {
+    this->Refuse("is no number of bytes, such as 512M or 1.5G");
+  }
+  return static_cast<std::int64_t>(bytes);
+}
+
 std::array<double, 2> Argument::AsRange() const
 {
   std::array<double, 2> ends{};

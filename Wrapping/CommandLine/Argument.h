@@ -9,6 +9,7 @@
 #define Argument_h
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -27,9 +28,12 @@ public:
   }
 
   const std::string& GetOption() const { return this->Option; }
+  const std::string& GetText() const { return this->Text; }
 
   std::string AsFile() const;
   int AsInteger(int lowest, int highest = std::numeric_limits<int>::max()) const;
+  /// A number of bytes, which K, M, G or T may follow for powers of 1024.
+  std::int64_t AsBytes() const;
   double AsReal(double lowest = std::numeric_limits<double>::lowest()) const;
   std::array<double, 2> AsRange() const;
   std::vector<std::string> AsNames() const;

@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
+#include <optional>
+#include <regex>
 #include <string>
 
 namespace FileNames
@@ -22,6 +25,35 @@ inline std::string GetExtension(const std::string& file)
   std::transform(extension.begin(), extension.end(), extension.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+/// Where a name has a number such as %d or %04d, which stands there once: the text before and
+/// behind it, and how many digits it has at least.
+struct Numbered
+{
+  std::string Before;
+  std::string Behind;
+  int Digits;
+
+  std::string operator()(long long number) const
+  {
+    std::string digits = std::to_string(number);
+    const auto length = static_cast<std::size_t>(this->Digits);
+    digits.insert(0, length > digits.size() ? length - digits.size() : 0, '0');
+    return this->Before + digits + this->Behind;
+  }
+};
+
+inline std::optional<Numbered> FindNumber(const std::string& file)
+{
+  static const std::regex number("%(0[1-9])?d");
+  const std::sregex_iterator found(file.begin(), file.end(), number);
+  if (std::distance(found, std::sregex_iterator()) != 1)
+  {
+    return std::nullopt;
+  }
+  const std::string digits = found->str(1);
+  return Numbered{ found->prefix(), found->suffix(), digits.empty() ? 1 : digits[1] - '0' };
 }
 
 /// Whether both name one place, whether or not there is a file yet.

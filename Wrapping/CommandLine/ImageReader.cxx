@@ -24,6 +24,7 @@
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredPointsReader.h"
+#include "vtkVoxelBitsReader.h"
 #include "vtkVoxelGrid.h"
 #include "vtkXMLImageDataReader.h"
 
@@ -276,6 +277,7 @@ constexpr Format Formats[] = {
   { ".nii", MakeReader<vtkNIFTIImageReader>, CheckNifti, OrientNifti, false, ScaleNifti },
   { ".nii.gz", MakeReader<vtkNIFTIImageReader>, nullptr, OrientNifti, false, ScaleNifti },
   { ".binvox", MakeReader<vtkBinvoxReader>, nullptr, nullptr },
+  { ".bits", MakeReader<vtkVoxelBitsReader>, nullptr, nullptr },
   { LegacyExtension, MakeReader<vtkStructuredPointsReader>, nullptr, nullptr },
 };
 

@@ -13,6 +13,7 @@
 #include "vtkSlicemapSolidVoxelizer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,6 +30,8 @@ using OptionNames = std::vector<std::string>;
 const OptionNames GridOptions = { "--resolution", "--dimensions", "--voxel-size", "--bounds",
   "--padding" };
 const OptionNames SolidOptions = { "--mode", "--fill", "--axis" };
+const OptionNames VariantOptions = { "--shell", "--variants", "--first", "--seed", "--rotate",
+  "--scale", "--displace", "--stay" };
 const OptionNames AttributeOptions = { "--attributes", "--texture", "--combine" };
 ///@}
 
@@ -97,7 +100,7 @@ void CheckFiles(const Options& options)
 void CheckVolume(const Options& options, const Names& given)
 {
   const std::string input = "INPUT " + options.Input;
-  if (const auto option = FindGiven(given, AttributeOptions))
+  if (const auto option = FindGiven(given, AttributeOptions, VariantOptions))
   {
     Argument::RefuseUsage(*option + " is for a mesh as INPUT, but " + input + " is a volume");
   }
@@ -109,8 +112,8 @@ void CheckVolume(const Options& options, const Names& given)
   const bool hasMesh = std::any_of(options.Steps.begin(), options.Steps.end(),
     [](const Options::Step& step)
     { return !step.File.empty() && !ImageReader::IsImage(step.File); });
-  const auto option =
-    FindGiven(given, { "--method", "--backend", "--separability", "--axes" }, SolidOptions);
+  const auto option = FindGiven(
+    given, { "--method", "--backend", "--separability", "--axes", "--repair" }, SolidOptions);
   if (option && !hasMesh)
   {
     Argument::RefuseUsage(
@@ -142,7 +145,9 @@ void CheckInput(const Options& options, const Names& given)
 
 void CheckMethod(const Options& options, const Names& given)
 {
-  const std::string method = options.Method == Method::Depth ? "depth" : "surface";
+  const std::string method = options.Method == Method::Depth ? "depth"
+    : options.Method == Method::Tetra                        ? "tetra"
+                                                             : "surface";
   if (const auto option = FindGiven(given, SolidOptions); option && options.Method != Method::Solid)
   {
     Argument::RefuseUsage(*option + " is for solids and does not go with --method " + method);
@@ -155,6 +160,11 @@ void CheckMethod(const Options& options, const Names& given)
   if (given.count("--axes") && options.Method != Method::Depth)
   {
     Argument::RefuseUsage("--axes needs --method depth");
+  }
+  if (const auto option = FindGiven(given, VariantOptions);
+      option && options.Method != Method::Tetra)
+  {
+    Argument::RefuseUsage(*option + " needs --method tetra");
   }
   if (given.count("--combine") && options.Attributes.empty() && !options.Texture)
   {
@@ -259,6 +269,55 @@ void CheckSteps(const Options& options, const Names& given)
   }
 }
 
+void CheckSlabs(const Options& options, const Names& given)
+{
+  if (!options.MemoryLimit)
+  {
+    return;
+  }
+  RefuseTogether(given, "--memory-limit", { "--picture", "--attributes", "--texture" },
+    "voxels that are made in slabs are set or not, and gone when they are written");
+  RefuseTogether(given, "--memory-limit", { "--variants" }, "each variant is made as a whole");
+  if (!VoxelOutput::TakesSlabs(options.Output))
+  {
+    Argument::RefuseUsage("--memory-limit and OUTPUT " + options.Output +
+      " contradict each other: formats that are written in slabs are " +
+      VoxelOutput::GetExtensionsOfSlabs());
+  }
+}
+
+void CheckVariants(const Options& options, const Names& given)
+{
+  if (options.ScaleRange &&
+    !((*options.ScaleRange)[0] > 0.0 && std::isfinite((*options.ScaleRange)[1])))
+  {
+    Argument::RefuseUsage("--scale: both factors must be positive and finite");
+  }
+  if (options.Displacement.value_or(0.0) > 1.0)
+  {
+    Argument::RefuseUsage("--displace: more than the size of the mesh, 1, makes no sense");
+  }
+  if (!options.Variants)
+  {
+    return;
+  }
+  RefuseTogether(given, "--variants", { "--picture" }, "there is no picture of several");
+  const bool isNumbered = FileNames::FindNumber(options.Output).has_value();
+  const bool isBatch = VoxelOutput::TakesVariants(options.Output);
+  if (!isNumbered && !isBatch)
+  {
+    Argument::RefuseUsage("--variants and OUTPUT " + options.Output +
+      " contradict each other: several files need a number in their name, such as %04d, once; one "
+      "file for all is a .bits file");
+  }
+  if (!isNumbered && !options.Steps.empty())
+  {
+    Argument::RefuseUsage(options.Steps.front().Option + " and OUTPUT " + options.Output +
+      " contradict each other: steps make one variant after the other; put a number such as %04d "
+      "into the name");
+  }
+}
+
 /// Voxels of a file are written as they are.
 void CheckVoxels(const Options& options, const Names& given)
 {
@@ -297,7 +356,9 @@ void OptionChecks::Check(const Options& options, const Names& given)
   CheckVoxels(options, given);
   CheckInput(options, given);
   CheckMethod(options, given);
+  CheckVariants(options, given);
   CheckTogether(options, given);
   CheckOutput(options, given);
   CheckSteps(options, given);
+  CheckSlabs(options, given);
 }

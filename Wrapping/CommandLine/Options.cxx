@@ -122,13 +122,15 @@ const std::vector<Group>& GetGroups()
           "solid    what lies inside of a closed mesh (default)\n"
           "surface  what any mesh touches, with attributes; needs OpenGL 4.3, which\n"
           "         --mode boundary of solids does not\n"
-          "depth    what lies between the outermost surfaces along --axes, of any mesh",
+          "depth    what lies between the outermost surfaces along --axes, of any mesh\n"
+          "tetra    what lies inside, holes closed, for variants and shells; see below",
           [](Options& o, const Argument& a)
           {
             o.Method =
               static_cast<Method>(a.AsChoice({ { "solid", static_cast<int>(Method::Solid) },
                 { "surface", static_cast<int>(Method::Surface) },
-                { "depth", static_cast<int>(Method::Depth) } }));
+                { "depth", static_cast<int>(Method::Depth) },
+                { "tetra", static_cast<int>(Method::Tetra) } }));
           } },
         { "--backend", "BACKEND",
           "auto, raster (OpenGL 3.2) or compute (OpenGL 4.3); auto is compute where there\n"
@@ -139,6 +141,10 @@ const std::vector<Group>& GetGroups()
               { { "auto", vtkVoxelizer::BACKEND_AUTO }, { "raster", vtkVoxelizer::BACKEND_RASTER },
                 { "compute", vtkVoxelizer::BACKEND_COMPUTE } });
           } },
+        { "--repair", nullptr,
+          "first leave out polygons that the mesh has twice, either way round, that are\n"
+          "walls within it, or have no area, and tell how many these were",
+          [](Options& o, const Argument&) { o.Repair = true; } },
       } },
     { "Solids",
       {
@@ -202,9 +208,49 @@ const std::vector<Group>& GetGroups()
       } },
     { "Between surfaces (--method depth)",
       {
-        { "--axes", "AXIS[,AXIS...]",
-          "x, y and z: the axes along which the mesh is looked at (default: x,y,z)",
-          [](Options& o, const Argument& a) { o.Axes = a.AsAxes(); } },
+        { "--axes", "AXIS[,AXIS...]|auto",
+          "x, y and z: the axes along which the mesh is looked at (default: x,y,z);\n"
+          "auto: one of them where that tells everything, as of convex meshes",
+          [](Options& o, const Argument& a)
+          {
+            o.AutomaticAxes = a.GetText() == "auto";
+            o.Axes = o.AutomaticAxes ? std::array{ true, true, true } : a.AsAxes();
+          } },
+      } },
+    { "Variants and shells (--method tetra)",
+      {
+        { "--shell", "N",
+          "6, 18 or 26: only voxels with one of so many neighbours outside of the solid",
+          [](Options& o, const Argument& a) {
+            o.Shell = a.AsChoice({ { "6", 6 }, { "18", 18 }, { "26", 26 } });
+          } },
+        { "--variants", "N",
+          "N variants of the mesh at once: in one .bits file, or in a file each, when\n"
+          "OUTPUT has a number like %04d in its name, which becomes that of the variant",
+          [](Options& o, const Argument& a) { o.Variants = a.AsInteger(1); } },
+        { "--first", "N", "number of the first variant, or of the only one (default: 0)",
+          [](Options& o, const Argument& a) { o.FirstVariant = a.AsInteger(0); } },
+        { "--seed", "S",
+          "what all random numbers come from (default: 0): variant N of a seed is the same\n"
+          "whenever and wherever it is made",
+          [](Options& o, const Argument& a)
+          { o.Seed = a.AsInteger(std::numeric_limits<int>::min()); } },
+        { "--rotate", "AXIS", "turn by any angle about x, y or z, or about any axis: any",
+          [](Options& o, const Argument& a)
+          {
+            o.RotationAxis =
+              a.AsChoice({ { "x", 0 }, { "y", 1 }, { "z", 2 }, { "any", Options::AnyAxis } });
+          } },
+        { "--scale", "LOWER,UPPER", "scale each axis by a factor of its own in this range",
+          [](Options& o, const Argument& a) { o.ScaleRange = a.AsRange(); } },
+        { "--displace", "A",
+          "move the points by up to A times the longest side of the mesh along each axis",
+          [](Options& o, const Argument& a) { o.Displacement = a.AsReal(Positive); } },
+        { "--stay", nullptr,
+          "variants stay where the mesh is, and may leave the grid; without, those that are\n"
+          "turned, scaled or displaced are moved to the middle of the grid, in such a size\n"
+          "that they fit however they are turned, and --resolution gives N^3 voxels",
+          [](Options& o, const Argument&) { o.StaysInPlace = true; } },
       } },
     { "Steps, which change the voxels one after the other, in the order given here",
       {
@@ -279,6 +325,10 @@ const std::vector<Group>& GetGroups()
           [](Options& o, const Argument& a) { o.Value = a.AsInteger(1, 255); } },
         { "--cells", nullptr, "voxels are the cells of the image, instead of its points",
           [](Options& o, const Argument&) { o.Cells = true; } },
+        { "--memory-limit", "SIZE",
+          "make and write the voxels in slabs that take no more memory than this, 1G say,\n"
+          "for grids larger than memory; for @SLABS@",
+          [](Options& o, const Argument& a) { o.MemoryLimit = a.AsBytes(); } },
         { "--picture", "FILE.png",
           "also draw the voxels that are set, coloured by the texture or else by the first\n"
           "attribute: numbers from blue, the least, to red, vectors by their length",
@@ -367,6 +417,7 @@ void PrintDefinition(std::ostream& out, const Definition& definition)
   std::string indent;
   std::string help = Replaced(definition.Help, "any of @REFERENCES@", ImageReader::GetExtensions());
   help = Replaced(help, "@MASKS@", ImageReader::GetImageExtensions());
+  help = Replaced(help, "@SLABS@", VoxelOutput::GetExtensionsOfSlabs());
   std::istringstream lines(Replaced(help, "@TEXTURES@", TextureImage::GetExtensions()));
   for (std::string line; std::getline(lines, line); indent = "\n" + std::string(column, ' '))
   {
@@ -460,9 +511,10 @@ std::string Options::GetHelp()
                VoxelInput::GetExtensions() + "\n")
       << "  OUTPUT            the voxels: " << VoxelOutput::GetExtensions()
       << "\n"
-         "                    .vti holds all there is, .mha, .mhd and .binvox the set voxels\n"
-         "                    alone; with --method surface also .vtp, a list of the voxels, and\n"
-         "                    .htg, an octree, for grids too large to be kept as images\n";
+         "                    .vti holds all there is, .mha, .mhd, .binvox and .bits the set\n"
+         "                    voxels alone, the last ones a bit each; with --method surface also\n"
+         "                    .vtp, a list of the voxels, and .htg, an octree, for grids too\n"
+         "                    large to be kept as images\n";
   for (const Group& group : GetGroups())
   {
     out << "\n" << group.Title << ":\n";
@@ -482,8 +534,13 @@ std::string Options::GetHelp()
        "  vtkvoxelize part.stl rest.vti --subtract drill.stl --kernel sphere --open 2\n"
        "  vtkvoxelize --reference mask.nii.gz liver.stl shell.mha --dilate 3 --subtract "
        "mask.nii.gz\n"
+       "  vtkvoxelize --resolution 4096 --memory-limit 1G bunny.ply bunny.vdb\n"
        "  vtkvoxelize ct.mha bone.vti --iso 300 --keep-largest --fill-holes\n"
        "  vtkvoxelize labels.nrrd liver.mha --label 6 --subtract tumour.stl\n"
+       "  vtkvoxelize --method tetra --resolution 64 --rotate any --scale 0.5,1.5 --seed 1 \n"
+       "    --variants 1000 --repair chair.obj chair.bits\n"
+       "  vtkvoxelize --method tetra --resolution 32 --rotate z --variants 20 car.obj "
+       "car_%02d.binvox\n"
        "\nExit codes:\n"
        "  0  all is well\n"
        "  1  the command line makes no sense\n"
@@ -494,6 +551,6 @@ std::string Options::GetHelp()
        "     texture coordinates that the mesh has not\n"
        "  4  OUTPUT or the picture can't be written\n"
        "Unless all is well, files that were there before are left as they were, and no others are\n"
-       "made.\n";
+       "made; but of variants in a file each, those that are complete stay.\n";
   return out.str();
 }

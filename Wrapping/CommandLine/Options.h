@@ -9,6 +9,7 @@
 #define Options_h
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,7 +21,8 @@ struct Options
   {
     Solid,
     Surface,
-    Depth
+    Depth,
+    Tetra
   };
 
   /// What is done to the voxels of INPUT, and to what the steps before have made of them.
@@ -80,6 +82,7 @@ struct Options
    * Axes along which --method depth looks.
    */
   std::optional<std::array<bool, 3>> Axes;
+  bool AutomaticAxes = false; ///< one of them where that does
 
   ///@{
   /**
@@ -87,6 +90,25 @@ struct Options
    */
   std::vector<std::string> Attributes;
   std::optional<std::string> Texture;
+  ///@}
+
+  /// Whether meshes are mended before.
+  bool Repair = false;
+
+  ///@{
+  /**
+   * Of --method tetra: neighbours of a shell, and what variants there are. The axis about which
+   * they are rotated is x, y or z, or any.
+   */
+  std::optional<int> Shell;
+  std::optional<int> Variants;
+  std::optional<int> FirstVariant;
+  std::optional<int> Seed;
+  std::optional<int> RotationAxis;
+  static constexpr int AnyAxis = 3;
+  std::optional<std::array<double, 2>> ScaleRange;
+  std::optional<double> Displacement;
+  bool StaysInPlace = false;
   ///@}
 
   std::vector<Step> Steps;
@@ -104,6 +126,9 @@ struct Options
   std::optional<int> ScalarType;
   std::optional<int> Value;
   bool Cells = false;
+
+  /// Bytes that slabs may take; unset is no slabs, but all voxels at once.
+  std::optional<std::int64_t> MemoryLimit;
 
   std::optional<std::string> Picture;
   std::optional<int> UpAxis;
@@ -123,6 +148,12 @@ struct Options
   static Options Parse(const std::vector<std::string>& words);
 
   static std::string GetHelp();
+
+  /// Whether the mesh is turned, scaled or displaced at random.
+  bool HasRandomVariants() const
+  {
+    return this->RotationAxis || this->ScaleRange || this->Displacement;
+  }
 
   /// Whether INPUT is a volume, and not a mesh.
   bool HasVolume() const;

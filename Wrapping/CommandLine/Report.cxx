@@ -82,7 +82,7 @@ std::string DescribeScalars(const VoxelPipeline& pipeline)
 }
 }
 
-void Report::Describe(const VoxelPipeline& pipeline)
+void Report::Describe(const VoxelPipeline& pipeline, std::optional<vtkIdType> filledInSlabs)
 {
   vtkVoxelAlgorithm* result = pipeline.GetResult();
   const auto grid = pipeline.GetGrid();
@@ -98,7 +98,7 @@ void Report::Describe(const VoxelPipeline& pipeline)
     size += (size.empty() ? "" : " x ") + std::to_string(n);
   }
   const double* spacing = grid->GetSpacing();
-  const vtkIdType filled = result->GetNumberOfFilledVoxels();
+  const vtkIdType filled = filledInSlabs ? *filledInSlabs : result->GetNumberOfFilledVoxels();
   const double volume = static_cast<double>(filled) * spacing[0] * spacing[1] * spacing[2] *
     std::abs(grid->GetDirectionMatrix()->Determinant());
 
@@ -131,7 +131,7 @@ void Report::Describe(const VoxelPipeline& pipeline)
     std::to_string(filled) + " (" + WithPrecision(100.0 * static_cast<double>(filled) / voxels, 3) +
       " %)");
   this->Add("filled volume", WithPrecision(volume, 8));
-  if (!solid.empty())
+  if (!solid.empty() && !filledInSlabs)
   {
     this->Add("leaking columns", Sum(solid, &vtkSlicemapSolidVoxelizer::GetNumberOfLeakingColumns));
   }

@@ -8,7 +8,10 @@
 #ifndef Report_h
 #define Report_h
 
+#include "vtkType.h"
+
 #include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +32,9 @@ public:
     this->AddTime(name, time.count());
   }
 
-  /// Adds what a pipeline that has run made of its meshes.
-  void Describe(const VoxelPipeline& pipeline);
+  /// Adds what a pipeline that has run made of its meshes. Slabs leave their number of
+  /// filled voxels behind, and no more.
+  void Describe(const VoxelPipeline& pipeline, std::optional<vtkIdType> filledInSlabs);
 
   void Print() const;
 

@@ -68,6 +68,14 @@ void Terminal::PrintError(const std::string& message)
   this->Print("error", message);
 }
 
+void Terminal::PrintNote(const std::string& message)
+{
+  if (!this->Quiet)
+  {
+    this->Print("note", message);
+  }
+}
+
 void Terminal::PrintWarning(const std::string& message)
 {
   if (!this->Quiet && this->Warned.insert(message).second)

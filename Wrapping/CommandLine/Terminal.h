@@ -26,6 +26,9 @@ public:
 
   void PrintError(const std::string& message);
 
+  /// What has been done beside voxels; not when quiet.
+  void PrintNote(const std::string& message);
+
   /// Prints a warning, but none twice.
   void PrintWarning(const std::string& message);
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VoxelOutput.h"
 
+#include "Failure.h"
 #include "FileNames.h"
 #include "Messages.h"
+#include "Options.h"
 #include "OutputFile.h"
 #include "StagedFiles.h"
 #include "Terminal.h"
@@ -16,7 +18,11 @@
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkTetraCoveringVoxelizer.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVoxelAlgorithm.h"
+#include "vtkVoxelBitsWriter.h"
+#include "vtkVoxelSlabWriter.h"
 #include "vtkXMLHyperTreeGridWriter.h"
 #include "vtkXMLImageDataWriter.h"
 #include "vtkXMLPolyDataWriter.h"
@@ -110,6 +116,7 @@ struct Format
 };
 
 constexpr char BinvoxExtension[] = ".binvox";
+constexpr char BitsExtension[] = ".bits";
 constexpr char VDBExtension[] = ".vdb";
 
 constexpr Format Formats[] = {
@@ -117,6 +124,7 @@ constexpr Format Formats[] = {
   { ".mha", VoxelOutput::Kind::Image, nullptr },
   { ".mhd", VoxelOutput::Kind::Image, nullptr },
   { BinvoxExtension, VoxelOutput::Kind::Image, nullptr },
+  { BitsExtension, VoxelOutput::Kind::Image, nullptr },
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
   { VDBExtension, VoxelOutput::Kind::Image, nullptr },
 #endif
@@ -214,16 +222,13 @@ void VoxelOutput::Refuse(const std::string& why) const
   OutputFile::Refuse(this->Target, why);
 }
 
-template <typename Writer>
-void VoxelOutput::WriteInPlace(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
+template <typename Writer, typename Work>
+std::string VoxelOutput::RunWriter(Writer* writer, Messages& messages, const Work& work) const
 {
-  vtkNew<Writer> writer;
   writer->SetFileName(this->File.c_str());
   writer->InPlaceOn();
-  writer->SetInputDataObject(voxels);
-  terminal.Watch(writer, "writing");
   errno = 0;
-  writer->Write();
+  work();
   const int error = errno;
   const std::string reason = messages.TakeReason();
   const auto code = writer->GetErrorCode();
@@ -234,6 +239,30 @@ void VoxelOutput::WriteInPlace(vtkDataObject* voxels, Messages& messages, Termin
   if (code != vtkErrorCode::NoError)
   {
     this->Refuse(reason);
+  }
+  return reason;
+}
+
+template <typename Writer>
+void VoxelOutput::WriteInPlace(vtkDataObject* voxels, Messages& messages, Terminal& terminal) const
+{
+  vtkNew<Writer> writer;
+  writer->SetInputDataObject(voxels);
+  terminal.Watch(writer, "writing");
+  this->RunWriter(writer.Get(), messages, [&] { writer->Write(); });
+}
+
+void VoxelOutput::WriteBatch(vtkTetraCoveringVoxelizer* voxelizer, vtkTypeInt64 first, int count,
+  Messages& messages, Terminal& terminal) const
+{
+  vtkNew<vtkVoxelBitsWriter> writer;
+  terminal.Watch(voxelizer, "voxelizing");
+  bool finished = false;
+  const std::string reason = this->RunWriter(
+    writer.Get(), messages, [&] { finished = writer->WriteBatch(voxelizer, first, count); });
+  if (!finished)
+  {
+    throw Failure(ExitCode::Voxelization, reason);
   }
 }
 
@@ -247,6 +276,10 @@ void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& ter
   {
     this->WriteInPlace<vtkBinvoxWriter>(voxels, messages, terminal);
   }
+  else if (this->Extension == BitsExtension)
+  {
+    this->WriteInPlace<vtkVoxelBitsWriter>(voxels, messages, terminal);
+  }
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
   else if (this->Extension == VDBExtension)
   {
@@ -258,6 +291,35 @@ void VoxelOutput::Write(vtkDataObject* voxels, Messages& messages, Terminal& ter
     terminal.ShowProgress("writing", 0.0);
     this->WriteMetaImage(vtkImageData::SafeDownCast(voxels));
     terminal.ShowProgress("writing", 1.0);
+  }
+}
+
+std::int64_t VoxelOutput::WriteSlabs(
+  vtkVoxelAlgorithm* voxels, const Options& options, Messages& messages, Terminal& terminal) const
+{
+  vtkNew<vtkVoxelSlabWriter> writer;
+  writer->SetFileName(this->File.c_str());
+  writer->InPlaceOn();
+  writer->SetInputConnection(voxels->GetOutputPort());
+  writer->SetMemoryLimit(options.MemoryLimit.value_or(0));
+  writer->SetScalarType(options.ScalarType.value_or(writer->GetScalarType()));
+  writer->SetForegroundValue(options.Value.value_or(writer->GetForegroundValue()));
+  terminal.Watch(writer, "voxelizing");
+  errno = 0;
+  writer->Write();
+  const int error = errno;
+  switch (writer->GetErrorCode())
+  {
+    case vtkErrorCode::NoError:
+      return writer->GetNumberOfFilledVoxels();
+    case vtkErrorCode::OutOfDiskSpaceError:
+      messages.TakeReason();
+      this->Refuse(OutputFile::Describe(error));
+    case vtkVoxelSlabWriter::MemoryLimitError:
+    case vtkVoxelSlabWriter::UpstreamError:
+      throw Failure(ExitCode::Voxelization, messages.TakeReason());
+    default:
+      this->Refuse(messages.TakeReason());
   }
 }
 
@@ -344,7 +406,30 @@ bool VoxelOutput::HasAttributes(const std::string& target)
 bool VoxelOutput::TakesSlicemap(const std::string& target)
 {
   const std::string extension = FileNames::GetExtension(target);
-  return extension == BinvoxExtension || extension == VDBExtension;
+  return extension == BinvoxExtension || extension == BitsExtension || extension == VDBExtension;
+}
+
+bool VoxelOutput::TakesVariants(const std::string& target)
+{
+  return FileNames::GetExtension(target) == BitsExtension;
+}
+
+bool VoxelOutput::TakesSlabs(const std::string& target)
+{
+  return vtkVoxelSlabWriter::GetFormatOfFile(target.c_str()) != vtkVoxelSlabWriter::FORMAT_AUTO;
+}
+
+std::string VoxelOutput::GetExtensionsOfSlabs()
+{
+  std::string extensions;
+  for (const Format& format : Formats)
+  {
+    if (TakesSlabs(std::string("voxels") + format.Extension))
+    {
+      extensions += (extensions.empty() ? "" : ", ") + std::string(format.Extension);
+    }
+  }
+  return extensions;
 }
 
 std::string VoxelOutput::GetExtensions()

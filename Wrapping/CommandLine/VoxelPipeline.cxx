@@ -16,9 +16,12 @@
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkVoxelFilter.h"
 #include "vtkVoxelGrid.h"
+#include "vtkVoxelMeshRepair.h"
 #include "vtkVoxelizer.h"
 
 #include <algorithm>
@@ -106,18 +109,39 @@ VoxelPipeline::~VoxelPipeline() = default;
 
 void VoxelPipeline::Read()
 {
-  this->Sources.front().Maker->SetInputDataObject(ReadInput(this->Asked, this->Said, this->Shown));
+  this->Sources.front().Maker->SetInputDataObject(
+    this->Mend(ReadInput(this->Asked, this->Said, this->Shown), this->Asked.Input));
   for (const Options::Step& step : this->Asked.Steps)
   {
-    this->StepObjects.push_back(
-      step.File.empty() ? nullptr : ReadStepFile(step.File, this->Said, this->Shown));
+    this->StepObjects.push_back(step.File.empty()
+        ? nullptr
+        : this->Mend(ReadStepFile(step.File, this->Said, this->Shown), step.File));
   }
   this->FitGrid();
   this->Connect();
   VoxelizerFactory::SetOutput(this->GetResult(), this->Asked);
   const bool hasArrays =
     this->Asked.Picture || this->Asked.Texture || !this->Asked.Attributes.empty();
-  this->GetResult()->SetHostOutput(hasArrays || !VoxelOutput::TakesSlicemap(this->Asked.Output));
+  const bool takesBits = this->Asked.MemoryLimit || VoxelOutput::TakesSlicemap(this->Asked.Output);
+  this->GetResult()->SetHostOutput(hasArrays || !takesBits);
+}
+
+vtkSmartPointer<vtkDataObject> VoxelPipeline::Mend(vtkDataObject* object, const std::string& file)
+{
+  if (!this->Asked.Repair || vtkImageData::SafeDownCast(object))
+  {
+    return object;
+  }
+  vtkNew<vtkVoxelMeshRepair> repair;
+  repair->SetInputDataObject(object);
+  repair->Update();
+  RefuseErrors(this->Said);
+  this->Shown.PrintNote(file + ": " + repair->GetSummary());
+  if (repair->GetOutput()->GetNumberOfPolys() == 0)
+  {
+    InputFile::Refuse(file, "all its polygons are degenerate");
+  }
+  return repair->GetOutput();
 }
 
 void VoxelPipeline::FitGrid()
@@ -216,11 +240,22 @@ void VoxelPipeline::Update(
   this->Shown.Watch(algorithm, "voxelizing");
   algorithm->Update(static_cast<int>(kind));
   RefuseErrors(this->Said);
+  this->Conclude(algorithm, algorithm->GetNumberOfFilledVoxels(), label);
+}
+
+void VoxelPipeline::RunInSlabs(const std::function<vtkIdType(vtkVoxelAlgorithm* result)>& write)
+{
+  this->Conclude(this->GetResult(), write(this->GetResult()), "");
+}
+
+void VoxelPipeline::Conclude(
+  vtkVoxelAlgorithm* algorithm, vtkIdType filled, const std::string& label)
+{
   for (const std::string& warning : this->Said.TakeWarnings())
   {
     this->Shown.PrintWarning(label + warning);
   }
-  if (algorithm->GetNumberOfFilledVoxels() == 0)
+  if (filled == 0)
   {
     this->Shown.PrintWarning(label + "no voxel is set: " + this->ExplainEmptiness(algorithm));
   }

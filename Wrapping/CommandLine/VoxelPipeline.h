@@ -13,6 +13,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,12 @@ public:
   /// Makes voxels of this kind, which there may be of pipelines without steps.
   void Run(VoxelOutput::Kind kind);
 
+  /**
+   * The same for `write`, which has the result make its voxels slab by slab, and returns how many
+   * are set.
+   */
+  void RunInSlabs(const std::function<vtkIdType(vtkVoxelAlgorithm* result)>& write);
+
   /// The last one, whose output are the voxels.
   vtkVoxelAlgorithm* GetResult() const;
 
@@ -61,11 +68,13 @@ public:
   vtkSmartPointer<vtkImageData> GetGrid() const;
 
 private:
+  vtkSmartPointer<vtkDataObject> Mend(vtkDataObject* object, const std::string& file);
   void FitGrid();
   void Connect();
   vtkVoxelizer* AddSource(vtkDataObject* mesh, const std::string& file);
   vtkImageData* PlaceMask(vtkImageData* mask, const std::string& file);
   void Update(vtkVoxelAlgorithm* algorithm, VoxelOutput::Kind kind, const std::string& label);
+  void Conclude(vtkVoxelAlgorithm* algorithm, vtkIdType filled, const std::string& label);
   std::string ExplainEmptiness(vtkVoxelAlgorithm* algorithm) const;
 
   const Options& Asked;

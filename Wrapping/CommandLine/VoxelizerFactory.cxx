@@ -10,6 +10,7 @@
 #include "vtkHybridSurfaceVoxelizer.h"
 #include "vtkImageData.h"
 #include "vtkSlicemapSolidVoxelizer.h"
+#include "vtkTetraCoveringVoxelizer.h"
 
 namespace
 {
@@ -27,6 +28,11 @@ void SetGrid(vtkVoxelizer* voxelizer, const Options& options, Messages& messages
   else if (options.VoxelSize)
   {
     voxelizer->SetVoxelSize(*options.VoxelSize);
+  }
+  else if (options.HasRandomVariants() && !options.StaysInPlace)
+  {
+    const int n = options.Resolution.value_or(Options::DefaultResolution);
+    voxelizer->SetSampleDimensions(n, n, n);
   }
   else
   {
@@ -68,7 +74,38 @@ vtkSmartPointer<vtkVoxelizer> MakeDepth(const Options& options)
   {
     voxelizer->SetAxes((*options.Axes)[0], (*options.Axes)[1], (*options.Axes)[2]);
   }
+  voxelizer->SetAutomaticAxes(options.AutomaticAxes);
   return voxelizer;
+}
+
+vtkSmartPointer<vtkVoxelizer> MakeTetra(const Options& options)
+{
+  auto voxelizer = vtkSmartPointer<vtkTetraCoveringVoxelizer>::New();
+  voxelizer->SetShell(options.Shell.value_or(voxelizer->GetShell()));
+  return voxelizer;
+}
+
+void SetVariants(vtkTetraCoveringVoxelizer* voxelizer, const Options& options)
+{
+  voxelizer->SetVariant(options.FirstVariant.value_or(0));
+  voxelizer->SetSeed(options.Seed.value_or(0));
+  if (options.RotationAxis == Options::AnyAxis)
+  {
+    voxelizer->SetRotationModeToUniform();
+  }
+  else if (options.RotationAxis)
+  {
+    std::array<double, 3> axis{ 0.0, 0.0, 0.0 };
+    axis[*options.RotationAxis] = 1.0;
+    voxelizer->SetRotationModeToAxis();
+    voxelizer->SetRotationAxis(axis.data());
+  }
+  if (options.ScaleRange)
+  {
+    voxelizer->SetScaleRange(options.ScaleRange->data());
+  }
+  voxelizer->SetDisplacementAmplitude(options.Displacement.value_or(0.0));
+  voxelizer->SetSafeScaleToFit(options.HasRandomVariants() && !options.StaysInPlace);
 }
 
 vtkSmartPointer<vtkVoxelizer> MakeByMethod(const Options& options)
@@ -79,6 +116,8 @@ vtkSmartPointer<vtkVoxelizer> MakeByMethod(const Options& options)
       return MakeSurface(options);
     case Options::MethodType::Depth:
       return MakeDepth(options);
+    case Options::MethodType::Tetra:
+      return MakeTetra(options);
     default:
       return MakeSolid(options);
   }
@@ -99,6 +138,10 @@ vtkSmartPointer<vtkVoxelizer> VoxelizerFactory::Make(const Options& options, Mes
   {
     vtkHybridSurfaceVoxelizer::SafeDownCast(voxelizer)->SetTextureImage(
       TextureImage::Read(*options.Texture, messages));
+  }
+  if (auto* tetra = vtkTetraCoveringVoxelizer::SafeDownCast(voxelizer))
+  {
+    SetVariants(tetra, options);
   }
   SetGrid(voxelizer, options, messages);
   return voxelizer;

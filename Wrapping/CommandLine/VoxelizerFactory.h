@@ -24,7 +24,7 @@ namespace VoxelizerFactory
  */
 vtkSmartPointer<vtkVoxelizer> Make(const Options& options, Messages& messages);
 
-/// The same by the same method, on the grid of an image.
+/// The same by the same method, on the grid of an image; not turned, scaled or displaced.
 vtkSmartPointer<vtkVoxelizer> MakeOnGrid(const Options& options, vtkImageData* grid);
 
 /// Gives the filter whose result is written the form of output that the options ask for.

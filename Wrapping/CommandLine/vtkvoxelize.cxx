@@ -16,11 +16,13 @@
 
 #include "vtkImageData.h"
 #include "vtkPolyData.h"
+#include "vtkTetraCoveringVoxelizer.h"
 #include "vtkVersion.h"
 #include "vtkVoxelAlgorithm.h"
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
 namespace
 {
@@ -92,8 +94,62 @@ void Convert(const Options& options, Terminal& terminal)
   terminal.ClearBar();
 }
 
+/// A file for each variant, or one for all.
+void RunVariants(const Options& options, Terminal& terminal)
+{
+  const vtkTypeInt64 first = options.FirstVariant.value_or(0);
+  const int count = *options.Variants;
+  const auto number = FileNames::FindNumber(options.Output);
+  const auto nameOf = [&](int i) { return number ? (*number)(first + i) : options.Output; };
+  {
+    // Fails before there is any work, if it must.
+    StagedFiles files;
+    const VoxelOutput output(nameOf(0), files);
+  }
+  Messages messages;
+  VoxelPipeline pipeline(options, messages, terminal);
+  Report report;
+  report.Time("reading", [&] { pipeline.Read(); });
+  auto* voxelizer = vtkTetraCoveringVoxelizer::SafeDownCast(pipeline.GetSources().front().Maker);
+  const auto kind = VoxelOutput::GetKind(options.Output);
+  const auto writeEach = [&]
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      StagedFiles files;
+      const VoxelOutput output(nameOf(i), files);
+      voxelizer->SetVariant(first + i);
+      pipeline.Run(kind);
+      output.Write(
+        pipeline.GetResult()->GetOutputDataObject(static_cast<int>(kind)), messages, terminal);
+      files.Commit();
+    }
+  };
+  const auto writeAll = [&]
+  {
+    StagedFiles files;
+    const VoxelOutput output(options.Output, files);
+    pipeline.Run(kind);
+    output.WriteBatch(voxelizer, first, count, messages, terminal);
+    files.Commit();
+  };
+  report.Time("variants", [&] { number ? writeEach() : writeAll(); });
+  terminal.ClearBar();
+  if (options.Info)
+  {
+    report.Describe(pipeline);
+    report.Print();
+  }
+}
+
 void Run(const Options& options, Terminal& terminal)
 {
+  if (options.Variants)
+  {
+    RunVariants(options, terminal);
+    return;
+  }
+
   if (VoxelInput::IsVoxels(options.Input))
   {
     Convert(options, terminal);
@@ -108,13 +164,30 @@ void Run(const Options& options, Terminal& terminal)
 
   Report report;
   report.Time("reading", [&] { pipeline.Read(); });
-  report.Time("voxelizing", [&] { pipeline.Run(kind); });
-  report.Time("writing",
-    [&]
-    {
-      output.Write(
-        pipeline.GetResult()->GetOutputDataObject(static_cast<int>(kind)), messages, terminal);
-    });
+  std::optional<vtkIdType> filledInSlabs;
+  if (options.MemoryLimit)
+  {
+    report.Time("slabs",
+      [&]
+      {
+        pipeline.RunInSlabs(
+          [&](vtkVoxelAlgorithm* result)
+          {
+            filledInSlabs = output.WriteSlabs(result, options, messages, terminal);
+            return *filledInSlabs;
+          });
+      });
+  }
+  else
+  {
+    report.Time("voxelizing", [&] { pipeline.Run(kind); });
+    report.Time("writing",
+      [&]
+      {
+        output.Write(
+          pipeline.GetResult()->GetOutputDataObject(static_cast<int>(kind)), messages, terminal);
+      });
+  }
   if (options.Picture)
   {
     report.Time(
@@ -124,7 +197,7 @@ void Run(const Options& options, Terminal& terminal)
   terminal.ClearBar();
   if (options.Info)
   {
-    report.Describe(pipeline);
+    report.Describe(pipeline, filledInSlabs);
     report.Print();
   }
 }
