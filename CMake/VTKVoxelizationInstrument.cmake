@@ -38,14 +38,17 @@ function(vtkvoxelization_instrument)
   endforeach()
 endfunction()
 
+# Leaks that are known, and not this project's.
+set(VTKVOXELIZATION_LEAKS_ENVIRONMENT
+  "LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/Testing/Sanitizers/leaks.txt:print_suppressions=0")
+
 # How tests run under the sanitizers. GCC 12's guess where a library keeps its thread-local variables
 # can be wrong, and the leak check then crashes: it is not to guess.
 set(VTKVOXELIZATION_SANITIZE_ENVIRONMENT)
 if(VTKVOXELIZATION_SANITIZE)
-  set(suppressions "${PROJECT_SOURCE_DIR}/Testing/Sanitizers/leaks.txt")
   set(VTKVOXELIZATION_SANITIZE_ENVIRONMENT
     "ASAN_OPTIONS=set:intercept_tls_get_addr=0"
-    "LSAN_OPTIONS=set:suppressions=${suppressions}:print_suppressions=0"
+    "${VTKVOXELIZATION_LEAKS_ENVIRONMENT}"
     "UBSAN_OPTIONS=set:print_stacktrace=1")
 endif()
 
