@@ -137,7 +137,7 @@ void RunVariants(const Options& options, Terminal& terminal)
   terminal.ClearBar();
   if (options.Info)
   {
-    report.Describe(pipeline);
+    report.Describe(pipeline, std::nullopt);
     report.Print();
   }
 }
