@@ -34,8 +34,7 @@ public:
 
   /// Adds what a pipeline that has run made of its meshes. Slabs leave their number of
   /// filled voxels behind, and no more.
-  void Describe(
-    const VoxelPipeline& pipeline, std::optional<vtkIdType> filledInSlabs = std::nullopt);
+  void Describe(const VoxelPipeline& pipeline, std::optional<vtkIdType> filledInSlabs);
 
   void Print() const;
 
