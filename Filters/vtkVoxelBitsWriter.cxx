@@ -2,36 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVoxelBitsWriter.h"
 
-#include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkImageVoxels.h"
 #include "vtkInformation.h"
 #include "vtkNewVoxelFile.h"
 #include "vtkObjectFactory.h"
-#include "vtkSlicemapImage.h"
 #include "vtkTetraCoveringVoxelizer.h"
 #include "vtkVoxelBitsFile.h"
+#include "vtkVoxelBitsSlabs.h"
 #include "vtkVoxelFileError.h"
 
 #include <new>
+#include <optional>
 #include <string>
 
 vtkStandardNewMacro(vtkVoxelBitsWriter);
 
 namespace
 {
-/// The bytes of a variant are those of a vtkBitArray.
-void Append(vtkNewVoxelFile& file, const std::uint32_t* words, const vtkVoxelGrid& grid)
+bool GoOn(double)
 {
-  const auto array = vtkSlicemapImage::NewArray(grid, VTK_BIT);
-  if (!array)
-  {
-    throw std::bad_alloc();
-  }
-  vtkSlicemapImage::Expand(words, grid, 1, array);
-  file.GetStream().write(static_cast<const char*>(array->GetVoidPointer(0)),
-    static_cast<std::streamsize>((grid.GetNumberOfVoxels() + 7) / 8));
+  return true;
 }
 }
 
@@ -96,8 +88,8 @@ void vtkVoxelBitsWriter::WriteData()
       vtkVoxelBitsFile description = this->MakeDescription();
       description.Grid = voxels.Grid;
       vtkNewVoxelFile file(this->FileName, this->InPlace);
-      file.GetStream() << description.MakeHeader();
-      voxels.Read([&](const std::uint32_t* words) { Append(file, words, voxels.Grid); });
+      vtkVoxelBitsSlabs bits(file.GetStream(), description);
+      voxels.Read([&](const std::uint32_t* words) { bits.Add(words, voxels.Grid, GoOn); });
       file.Commit();
       return true;
     });
@@ -118,16 +110,16 @@ bool vtkVoxelBitsWriter::WriteBatch(
       description.FirstVariant = first;
       description.Seed = voxelizer->GetSeed();
       vtkNewVoxelFile file(this->FileName, this->InPlace);
+      std::optional<vtkVoxelBitsSlabs> bits;
       const bool finished = voxelizer->VisitBatch(first, count,
         [&](int i, const vtkVoxelGrid& grid, const std::uint32_t* words)
         {
           if (i == 0)
           {
             description.Grid = grid;
-            file.GetStream() << description.MakeHeader();
+            bits.emplace(file.GetStream(), description);
           }
-          Append(file, words, grid);
-          return static_cast<bool>(file.GetStream());
+          return bits->Add(words, grid, GoOn) && file.GetStream();
         });
       if (finished || !file.GetStream())
       {

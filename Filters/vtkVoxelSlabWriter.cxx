@@ -19,6 +19,8 @@
 #include "vtkSlicemap.h"
 #include "vtkSlicemapImage.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVoxelBitsFile.h"
+#include "vtkVoxelBitsSlabs.h"
 #include "vtkVoxelCompatibility.h"
 #include "vtkVoxelFileError.h"
 #include "vtkVoxelGrid.h"
@@ -286,6 +288,12 @@ private:
     {
       return std::make_unique<vtkBinvoxSlabs>(file.GetStream(), whole);
     }
+    if (this->Format == FORMAT_BITS)
+    {
+      vtkVoxelBitsFile description;
+      description.Grid = whole;
+      return std::make_unique<vtkVoxelBitsSlabs>(file.GetStream(), description);
+    }
     vtkImageFileSlabs::Settings settings;
     settings.ScalarType = this->Writer->ScalarType;
     settings.ForegroundValue = this->Writer->ForegroundValue;
@@ -453,6 +461,10 @@ int vtkVoxelSlabWriter::GetFormatOfFile(const char* fileName)
   {
     return FORMAT_BINVOX;
   }
+  if (extension == ".bits")
+  {
+    return FORMAT_BITS;
+  }
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
   if (extension == ".vdb")
   {
@@ -490,7 +502,7 @@ void vtkVoxelSlabWriter::WriteData()
     {
       throw vtkVoxelFileError(vtkErrorCode::UnrecognizedFileTypeError,
         "The file " + name + " can't be written in slabs: its format is not known by its name. " +
-          "Name a .vdb, .vti or .binvox file, or call SetFormat.");
+          "Name a .vdb, .vti, .binvox or .bits file, or call SetFormat.");
     }
 #ifndef VTKVOXELIZATION_HAS_OPENVDB
     if (format == FORMAT_VDB)
@@ -528,7 +540,7 @@ void vtkVoxelSlabWriter::WriteData()
 void vtkVoxelSlabWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const formats[] = { "Auto", "VDB", "VTI", "Binvox" };
+  const char* const formats[] = { "Auto", "VDB", "VTI", "Binvox", "Bits" };
   const char* const grids[] = { "Bool", "Mask", "LevelSet" };
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "InPlace: " << this->InPlace << "\n";

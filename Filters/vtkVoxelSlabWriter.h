@@ -18,6 +18,7 @@
  *  - .vti: an image with the array "Occupancy" of ScalarType, appended raw, in blocks packed by
  * zlib (Compressed, default) or in one piece.
  *  - .binvox: run lengths, as vtkBinvoxWriter writes them; the slabs lie along x.
+ *  - .bits: one bit a voxel, as vtkVoxelBitsWriter writes them.
  * Set voxels alone are written, no other arrays.
  *
  * <b>Memory.</b> Slabs are as thick as MemoryLimit allows, counting the bits, scalars and buffers
@@ -30,7 +31,7 @@
  * upstream is reported there. GetErrorCode tells scripts. Progress is reported and abort honoured
  * between slabs and within writing; an aborted write leaves no file either.
  *
- * @sa vtkVDBVoxelWriter vtkBinvoxWriter vtkVoxelizer
+ * @sa vtkVDBVoxelWriter vtkBinvoxWriter vtkVoxelBitsWriter vtkVoxelizer
  */
 
 #ifndef vtkVoxelSlabWriter_h
@@ -52,7 +53,8 @@ public:
     FORMAT_AUTO = 0,
     FORMAT_VDB = 1,
     FORMAT_VTI = 2,
-    FORMAT_BINVOX = 3
+    FORMAT_BINVOX = 3,
+    FORMAT_BITS = 4
   };
 
   /// Of GetErrorCode, beside those of vtkErrorCode.
@@ -91,12 +93,13 @@ public:
   /**
    * The format of the file. Default: Auto, which goes by the extension of FileName.
    */
-  vtkSetClampMacro(Format, int, FORMAT_AUTO, FORMAT_BINVOX);
+  vtkSetClampMacro(Format, int, FORMAT_AUTO, FORMAT_BITS);
   vtkGetMacro(Format, int);
   void SetFormatToAuto() { this->SetFormat(FORMAT_AUTO); }
   void SetFormatToVDB() { this->SetFormat(FORMAT_VDB); }
   void SetFormatToVTI() { this->SetFormat(FORMAT_VTI); }
   void SetFormatToBinvox() { this->SetFormat(FORMAT_BINVOX); }
+  void SetFormatToBits() { this->SetFormat(FORMAT_BITS); }
   ///@}
 
   /**

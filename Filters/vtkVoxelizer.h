@@ -206,7 +206,10 @@ protected:
    * For what must happen before a run takes the context, such as rendering by VTK. Returns false
    * when aborted. Throws std::runtime_error.
    */
-  virtual bool Prepare(const vtkVoxelGrid& vtkNotUsed(whole)) { return true; }
+  virtual bool Prepare(const vtkVoxelGrid& vtkNotUsed(whole))
+  {
+    return true;
+  }
 
   /**
    * Adds more arrays to the voxels of `grid`, which have been filled and read back, in the current

@@ -24,6 +24,7 @@
 #include <vtkSlicemapSolidVoxelizer.h>
 #include <vtkTetraCoveringVoxelizer.h>
 #include <vtkTrivialProducer.h>
+#include <vtkVoxelBitsReader.h>
 #include <vtkVoxelMorphology.h>
 #include <vtkVoxelSlabWriter.h>
 #include <vtkXMLImageDataReader.h>
@@ -117,6 +118,8 @@ Image ReadFile(const std::string& name)
       return ReadWith<vtkXMLImageDataReader>(name);
     case Writer::FORMAT_BINVOX:
       return ReadWith<vtkBinvoxReader>(name);
+    case Writer::FORMAT_BITS:
+      return ReadWith<vtkVoxelBitsReader>(name);
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
     case Writer::FORMAT_VDB:
       return ReadWith<vtkVDBVoxelReader>(name);
@@ -128,7 +131,7 @@ Image ReadFile(const std::string& name)
 
 std::vector<std::string> GetExtensions()
 {
-  std::vector<std::string> extensions = { ".vti", ".binvox" };
+  std::vector<std::string> extensions = { ".vti", ".binvox", ".bits" };
 #ifdef VTKVOXELIZATION_HAS_OPENVDB
   extensions.emplace_back(".vdb");
 #endif

@@ -21,11 +21,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 import vtkvoxelization
-from vtkvoxelization import vtkBinvoxReader, vtkSlicemapSolidVoxelizer, vtkVoxelSlabWriter
+from vtkvoxelization import vtkBinvoxReader, vtkSlicemapSolidVoxelizer, vtkVoxelBitsReader, vtkVoxelSlabWriter
 
 KILLS = 20
-FORMATS = [".vti", ".binvox"] + ([".vdb"] if hasattr(vtkvoxelization, "vtkVDBVoxelReader") else [])
-READERS = {".vti": vtkXMLImageDataReader, ".binvox": vtkBinvoxReader,
+FORMATS = [".vti", ".binvox", ".bits"] + ([".vdb"] if hasattr(vtkvoxelization, "vtkVDBVoxelReader") else [])
+READERS = {".vti": vtkXMLImageDataReader, ".binvox": vtkBinvoxReader, ".bits": vtkVoxelBitsReader,
            ".vdb": getattr(vtkvoxelization, "vtkVDBVoxelReader", None)}
 
 
