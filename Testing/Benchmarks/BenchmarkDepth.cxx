@@ -7,9 +7,8 @@
 //   OBJECT/Again/SIZE   solid, of buffers that are there already
 //   OBJECT/Prop/SIZE    solid, of an actor
 //   OBJECT/Parity/SIZE  vtkSlicemapSolidVoxelizer, for comparison
-//   Sphere_TRIANGLES/METHOD/256   one shape from few to many triangles
-//   Shells_COUNT/METHOD/256       so many spheres, of equally many triangles in all, inside each other
-//                                 (METHOD is Solid, Auto or Parity)
+//   Sphere_TRIANGLES/METHOD/256   one shape from few to many triangles, by Solid, Auto or Parity
+//   Shells_COUNT/METHOD/256       so many spheres inside each other, with equally many triangles
 //
 // The counter "voxels" is the number of voxels that are set, "buffers" that of buffers drawn each
 // time. With --table it prints tables in Markdown, of the least of the times.
