@@ -6,7 +6,9 @@
 //   Write/MESH                           the writer alone, of bits on the GPU, as a mask
 //   OpenVDB/MESH                         openvdb::tools::meshToVolume with a narrow band of three
 //                                        voxels, its interior mask, and openvdb::io::File; the mesh
-//                                        is in index coordinates before
+//                                        is in index coordinates before; "leaves" are those of its
+//                                        tree and "our leaves" those of a Mask file, "only there"
+//                                        and "only here" the voxels active in one of both
 
 #include "OpenVDBMesh.h"
 #include "VoxelBenchmarks.h"
@@ -33,18 +35,29 @@ std::string GetFileName()
   return (std::filesystem::temp_directory_path() / "BenchmarkVDB.vdb").string();
 }
 
+struct Solid
+{
+  vtkNew<vtkSlicemapSolidVoxelizer> Voxelizer;
+  vtkNew<vtkVDBVoxelWriter> Writer;
+
+  Solid(const Mesh& mesh, int resolution, int occupancy)
+  {
+    this->Voxelizer->SetInputData(mesh);
+    this->Voxelizer->SetResolution(resolution);
+    this->Voxelizer->HostOutputOff();
+    this->Writer->SetInputConnection(this->Voxelizer->GetOutputPort());
+    this->Writer->SetFileName(GetFileName().c_str());
+    this->Writer->SetOccupancyGrid(occupancy);
+    this->Writer->SetCompressionToNone();
+  }
+};
+
 template <int Occupancy, bool WriterAlone = false>
 void Voxelization(benchmark::State& state, const Mesh& mesh)
 {
-  vtkNew<vtkSlicemapSolidVoxelizer> voxelizer;
-  voxelizer->SetInputData(mesh);
-  voxelizer->SetResolution(static_cast<int>(state.range(0)));
-  voxelizer->HostOutputOff();
-  vtkNew<vtkVDBVoxelWriter> writer;
-  writer->SetInputConnection(voxelizer->GetOutputPort());
-  writer->SetFileName(GetFileName().c_str());
-  writer->SetOccupancyGrid(Occupancy);
-  writer->SetCompressionToNone();
+  const Solid solid(mesh, static_cast<int>(state.range(0)), Occupancy);
+  vtkSlicemapSolidVoxelizer* voxelizer = solid.Voxelizer;
+  vtkVDBVoxelWriter* writer = solid.Writer;
   voxelizer->Update();
   Finish();
   for (auto _ : state)
@@ -60,24 +73,47 @@ void Voxelization(benchmark::State& state, const Mesh& mesh)
   std::filesystem::remove(GetFileName());
 }
 
+template <typename Tree, typename Other>
+double CountBeyond(const Tree& tree, const Other& other)
+{
+  openvdb::BoolTree beyond(tree, false, openvdb::TopologyCopy());
+  beyond.topologyDifference(other);
+  return double(beyond.activeVoxelCount());
+}
+
+/// Of OpenVDB's tree and of the one in a file of ours.
+void CompareTopologies(benchmark::State& state, const Mesh& mesh, const openvdb::BoolTree& theirs)
+{
+  const Solid solid(mesh, static_cast<int>(state.range(0)), vtkVDBVoxelWriter::GRID_MASK);
+  solid.Writer->Write();
+  openvdb::io::File file(GetFileName());
+  file.open();
+  const auto grid = openvdb::gridPtrCast<openvdb::MaskGrid>(file.readGrid("Occupancy"));
+  file.close();
+  state.counters["only there"] = CountBeyond(theirs, grid->tree());
+  state.counters["only here"] = CountBeyond(grid->tree(), theirs);
+  state.counters["leaves"] = double(theirs.leafCount());
+  state.counters["our leaves"] = double(grid->tree().leafCount());
+}
+
 void OpenVDB(benchmark::State& state, const Mesh& mesh)
 {
   openvdb::initialize();
   const OpenVDBMesh triangles(mesh, static_cast<int>(state.range(0)));
   const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
   constexpr float band = 3.0F;
-  openvdb::Index64 voxels = 0;
+  openvdb::BoolGrid::Ptr mask;
   for (auto _ : state)
   {
     const auto levelSet =
       openvdb::tools::meshToVolume<openvdb::FloatGrid>(triangles, *transform, band, band);
-    const openvdb::GridBase::Ptr mask = openvdb::tools::sdfInteriorMask(*levelSet);
+    mask = openvdb::tools::sdfInteriorMask(*levelSet);
     openvdb::io::File file(GetFileName());
     file.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);
     file.write(openvdb::GridPtrVec{ mask });
-    voxels = mask->activeVoxelCount();
   }
-  state.counters["voxels"] = double(voxels);
+  state.counters["voxels"] = double(mask->activeVoxelCount());
+  CompareTopologies(state, mesh, mask->tree());
   std::filesystem::remove(GetFileName());
 }
 }
