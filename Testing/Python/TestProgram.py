@@ -1440,6 +1440,8 @@ class TestBadInput(ProgramTest):
         self.complain(INPUT, "none.ply", "out.vti", naming=["none.ply", "No such file"])
         (self.folder / "folder.ply").mkdir()
         self.complain(INPUT, "folder.ply", "out.vti", naming=["folder.ply", "folder"])
+        os.mkfifo(self.folder / "pipe.ply")
+        self.complain(INPUT, "pipe.ply", "out.vti", naming=["pipe.ply", "pipe"])
 
     def test_unknown_type(self):
         self.refuse("mesh.dae", b"x", ".dae", ".stl", ".glb")
@@ -1787,10 +1789,12 @@ class TestBadGltf(ProgramTest):
         self.file("short.bin", good[:-1])
         self.file("long.bin", good + b"x")
         (self.folder / "folder").mkdir()
+        os.mkfifo(self.folder / "pipe")
         base64_of_good = base64.b64encode(good).decode()
         for uri, *naming in (
             ("lost.bin", "lost.bin", "No such file"),
             ("folder", "folder"),
+            ("pipe", "pipe"),
             ("short.bin", "buffers[0]", "168", "short.bin", "167"),
             ("long.bin", "buffers[0]", "168", "long.bin", "169"),
             ("data:;base64," + base64_of_good[:-4], "buffers[0]", "168", "165"),

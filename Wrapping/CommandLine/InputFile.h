@@ -49,13 +49,18 @@ inline std::uint32_t ReadBigEndian(std::istream& stream)
   return bytes[3] | bytes[2] << 8 | bytes[1] << 16 | std::uint32_t(bytes[0]) << 24;
 }
 
-/// Throws Failure unless this is a file that can be opened and is not empty.
+/// Throws Failure unless this is a file that can be opened, more than once, and is not empty.
 inline void CheckReadable(const std::string& file)
 {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
   {
     Refuse(file, "it is a folder");
+  }
+  if (std::filesystem::is_other(file, error))
+  {
+    // To open a pipe may take for ever.
+    Refuse(file, "it is a pipe or a device; write what comes of it to a file");
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
