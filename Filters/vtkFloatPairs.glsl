@@ -4,14 +4,7 @@
 // T. J. Dekker: A Floating-Point Technique for Extending the Available Precision. Numerische Mathematik 18
 // (1971). Errors are a few units of 2^-48, and none where the result has a pair.
 //
-// Goes first of all, for an extension. EXACT keeps a compiler from rearranging sums.
-
-#extension GL_ARB_gpu_shader5 : enable
-#ifdef GL_ARB_gpu_shader5
-#define EXACT precise
-#else
-#define EXACT
-#endif
+// Follows vtkExact.glsl.
 
 vec2 sumOf(float a, float b)
 {

@@ -9,6 +9,8 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
+#include "vtkColumnRectangleGLSL.h"
+#include "vtkExactGLSL.h"
 #include "vtkFloatPairsGLSL.h"
 #include "vtkPairMeshFetchGLSL.h"
 #include "vtkPairRasterFragmentGLSL.h"
@@ -165,13 +167,15 @@ vtkSolidRasterPass::Stages vtkSolidRasterPass::GetStages(Content content)
   switch (content)
   {
     case Content::Touched:
-      return { "vtkTouchedRaster", { vtkRasterMeshFetchGLSL, vtkTouchedRasterVertexGLSL },
+      return { "vtkTouchedRaster",
+        { vtkRasterMeshFetchGLSL, vtkColumnRectangleGLSL, vtkTouchedRasterVertexGLSL },
         { vtkSolidMasksGLSL, vtkTouchedColumnGLSL, vtkTouchedRasterFragmentGLSL }, 6 };
     case Content::PairParity:
       return { "vtkPairRaster",
-        { vtkVoxelMeshDisplacementGLSL, vtkRasterMeshFetchGLSL, vtkPairRasterVertexGLSL },
-        { vtkFloatPairsGLSL, vtkSolidMasksGLSL, vtkVoxelMeshDisplacementGLSL, vtkPairMeshFetchGLSL,
-          vtkPairRasterFragmentGLSL },
+        { vtkVoxelMeshDisplacementGLSL, vtkRasterMeshFetchGLSL, vtkColumnRectangleGLSL,
+          vtkPairRasterVertexGLSL },
+        { vtkExactGLSL, vtkFloatPairsGLSL, vtkSolidMasksGLSL, vtkVoxelMeshDisplacementGLSL,
+          vtkPairMeshFetchGLSL, vtkPairRasterFragmentGLSL },
         6 };
     case Content::Winding:
       return { "vtkSolidRaster", { vtkRasterMeshFetchGLSL, vtkSolidRasterVertexGLSL },

@@ -1,5 +1,7 @@
 // Cuts the tetrahedron of a triangle and the origin by slices: Ogayar et al., section III-A and III-B.
 //
+// Follows vtkExact.glsl.
+//
 // SLICES       number of slices that an invocation does; MAX_VERTICES is four times as many
 // LAYERED      defined when slices are layers of the render target; else there is one slice
 //
@@ -14,13 +16,6 @@
 // latter meet the slice. Both tetrahedra at a facet see the same two points of it, to the last bit, hence
 // EXACT; they are snapped to 1/128 of a voxel, and moved by half of that, so that no edge along an axis
 // goes through a pixel's centre: what lies on the upper end of a section is in it, on the lower end not.
-
-#extension GL_ARB_gpu_shader5 : enable
-#ifdef GL_ARB_gpu_shader5
-#define EXACT precise
-#else
-#define EXACT
-#endif
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = MAX_VERTICES) out;

@@ -8,6 +8,7 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
+#include "vtkExactGLSL.h"
 #include "vtkRasterMeshFetchGLSL.h"
 #include "vtkTetraRasterFragmentGLSL.h"
 #include "vtkTetraRasterGeometryGLSL.h"
@@ -119,7 +120,7 @@ void vtkTetraRasterPass::Draw(const vtkVoxelMesh& mesh, const glm::dvec3& origin
   Program& program = vtkVoxelGetProgram(this->Context, "vtkTetraRaster", defines,
     { { GL_VERTEX_SHADER,
         { vtkVoxelMeshDisplacementGLSL, vtkRasterMeshFetchGLSL, vtkTetraRasterVertexGLSL } },
-      { GL_GEOMETRY_SHADER, { vtkTetraRasterGeometryGLSL } },
+      { GL_GEOMETRY_SHADER, { vtkExactGLSL, vtkTetraRasterGeometryGLSL } },
       { GL_FRAGMENT_SHADER, { vtkTetraRasterFragmentGLSL } } });
   program.Use();
   const vtkRasterMeshBinding binding(mesh, grid, vtkColumnAxes(2));
