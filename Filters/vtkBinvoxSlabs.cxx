@@ -44,11 +44,8 @@ std::int64_t GetRows(const vtkVoxelGrid& grid)
 void vtkBinvoxSlabs::Check(const vtkVoxelGrid& grid)
 {
   // The header has one scale and no axes.
-  constexpr double tolerance = 1e-6;
-  const glm::dvec3 spacing = grid.Spacing;
-  const bool areCubes =
-    glm::all(glm::lessThanEqual(glm::abs(spacing - spacing.x), glm::dvec3(tolerance * spacing.x)));
-  if (!areCubes || grid.Direction != glm::dmat3(1.0))
+  const bool hasPositiveSpacing = glm::all(glm::greaterThan(grid.Spacing, glm::dvec3(0.0)));
+  if (!hasPositiveSpacing || !grid.HasCubicVoxels() || grid.Direction != glm::dmat3(1.0))
   {
     throw vtkVoxelFileError(vtkErrorCode::UserError,
       "A .binvox file has cubic voxels along the axes of the world, and this image is another "

@@ -170,10 +170,7 @@ public:
 private:
   bool DoSlices(const vtkVoxelGrid& grid, int first, int end, const Consume& consume)
   {
-    auto extent = grid.Extent;
-    extent[4] = grid.Extent[4] + first;
-    extent[5] = grid.Extent[4] + end - 1;
-    Slab slab{ grid.WithExtent(extent), nullptr, 0, {} };
+    Slab slab{ grid.WithSlices(first, end - first), nullptr, 0, {} };
     vtkNew<vtkSlicemap> slicemap;
     slicemap->SetContext(this->Filter->GetContext());
     if (!slicemap->Allocate(slab.Grid))

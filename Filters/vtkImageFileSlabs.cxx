@@ -168,10 +168,7 @@ bool vtkImageFileSlabs::Add(
     {
       return false;
     }
-    auto extent = slab.Extent;
-    extent[4] += first;
-    extent[5] = std::min(extent[5], extent[4] + this->SlicesAtOnce - 1);
-    this->AppendValues(words + first * sliceWords, slab.WithExtent(extent));
+    this->AppendValues(words + first * sliceWords, slab.WithSlices(first, this->SlicesAtOnce));
   }
   return true;
 }

@@ -43,7 +43,6 @@ private:
 
   void AppendValues(const std::uint32_t* words, const vtkVoxelGrid& slices);
   void WriteBlocks(std::int64_t bytes);
-  void WriteSizes();
 
   std::ostream& Stream;
   Settings Options;

@@ -28,7 +28,6 @@ constexpr int LeafShift = 3;
 constexpr int WindowSide = 3 * LeafSide;
 constexpr std::uint64_t Ones = ~std::uint64_t(0);
 constexpr vtkIdType LeavesAtOnce = 1 << 15;
-constexpr double CubeTolerance = 1e-6; // relative
 
 /// A solid's leaves as voxels of a coarser tree: those where a band may be.
 std::vector<Coord> FindCandidates(const openvdb::MaskTree& solid)
@@ -270,10 +269,7 @@ void AddInterior(const openvdb::MaskTree& solid, float value, openvdb::FloatTree
 
 void vtkVDBLevelSet::Check(const vtkVoxelGrid& lattice)
 {
-  const glm::dvec3 spacing = glm::abs(lattice.Spacing);
-  const bool areCubes = glm::all(
-    glm::lessThanEqual(glm::abs(spacing - spacing.x), glm::dvec3(CubeTolerance * spacing.x)));
-  if (!areCubes)
+  if (!lattice.HasCubicVoxels())
   {
     throw vtkVoxelFileError(vtkErrorCode::UserError,
       "A level set has cubic voxels, and this image has others: " + lattice.Describe() +

@@ -2,35 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVoxelBitsSlabs.h"
 
-#include "vtkDataArray.h"
 #include "vtkSlicemap.h"
 #include "vtkSlicemapImage.h"
 #include "vtkVoxelBitsFile.h"
-
-#include <algorithm>
-#include <new>
 
 namespace
 {
 constexpr int ByteBits = 8;
 
-std::int64_t GetBitsOfSlice(const vtkVoxelGrid& grid)
+std::int64_t GetBytesOf(const vtkVoxelGrid& slices)
 {
-  const glm::ivec3 n = grid.GetDimensions();
-  return std::int64_t(n.x) * n.y;
+  return (slices.GetNumberOfVoxels() + ByteBits - 1) / ByteBits;
 }
 }
 
 vtkVoxelBitsSlabs::vtkVoxelBitsSlabs(std::ostream& stream, const vtkVoxelBitsFile& description)
   : Stream(stream)
-  , BytesAtOnce(GetBitsOfSlice(description.Grid) * SlicesAtOnce / ByteBits)
+  , Bytes(GetBytesOf(description.Grid.WithSlices(0, SlicesAtOnce)))
 {
   this->Stream << description.MakeHeader();
 }
 
 std::int64_t vtkVoxelBitsSlabs::GetBytes() const
 {
-  return this->BytesAtOnce;
+  return static_cast<std::int64_t>(this->Bytes.size());
 }
 
 bool vtkVoxelBitsSlabs::Add(
@@ -44,18 +39,10 @@ bool vtkVoxelBitsSlabs::Add(
     {
       return false;
     }
-    auto extent = slab.Extent;
-    extent[4] += z;
-    extent[5] = std::min(extent[5], extent[4] + SlicesAtOnce - 1);
-    const vtkVoxelGrid part = slab.WithExtent(extent);
-    const auto bits = vtkSlicemapImage::NewArray(part, VTK_BIT);
-    if (!bits)
-    {
-      throw std::bad_alloc();
-    }
-    vtkSlicemapImage::Expand(words + z * wordsOfSlice, part, 1, bits);
-    this->Stream.write(static_cast<const char*>(bits->GetVoidPointer(0)),
-      static_cast<std::streamsize>((part.GetNumberOfVoxels() + ByteBits - 1) / ByteBits));
+    const vtkVoxelGrid part = slab.WithSlices(z, SlicesAtOnce);
+    vtkSlicemapImage::ExpandToBits(words + z * wordsOfSlice, part, this->Bytes.data());
+    this->Stream.write(reinterpret_cast<const char*>(this->Bytes.data()),
+      static_cast<std::streamsize>(GetBytesOf(part)));
   }
   return true;
 }

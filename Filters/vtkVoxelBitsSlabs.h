@@ -11,6 +11,7 @@
 #include "vtkVoxelSlabs.h"
 
 #include <ostream>
+#include <vector>
 
 struct vtkVoxelBitsFile;
 
@@ -35,7 +36,7 @@ private:
   static constexpr int SlicesAtOnce = 8;
 
   std::ostream& Stream;
-  const std::int64_t BytesAtOnce;
+  std::vector<unsigned char> Bytes; // of so many slices
 };
 
 #endif

@@ -317,7 +317,10 @@ private:
     const vtkImageVoxels voxels(this->From.Update(slab));
     voxels.Check();
     extent[2 * axis + 1] = voxels.Grid.Extent[2 * axis + 1];
-    if (voxels.Grid.Extent != extent || extent[2 * axis + 1] < slab.Extent[2 * axis + 1])
+    const std::int64_t slices = voxels.Grid.GetDimensions()[axis];
+    const bool isLast = extent[2 * axis + 1] == whole.Extent[2 * axis + 1];
+    if (voxels.Grid.Extent != extent || extent[2 * axis + 1] < slab.Extent[2 * axis + 1] ||
+      (!isLast && slices % this->Target->GetMultiple() != 0))
     {
       Refuse(std::string(this->From.GetName()) + " was asked for voxels of the " + slab.Describe() +
         ", and gave others: " + voxels.Grid.Describe() + ". It can't be written in slabs.");

@@ -12,6 +12,7 @@
 #include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -155,6 +156,21 @@ vtkVoxelGrid vtkVoxelGrid::WithExtent(const std::array<int, 6>& extent) const
   vtkVoxelGrid grid = *this;
   grid.Extent = extent;
   return grid;
+}
+
+vtkVoxelGrid vtkVoxelGrid::WithSlices(int first, int count) const
+{
+  vtkVoxelGrid grid = *this;
+  grid.Extent[4] = this->Extent[4] + first;
+  grid.Extent[5] = std::min(this->Extent[5], grid.Extent[4] + count - 1);
+  return grid;
+}
+
+bool vtkVoxelGrid::HasCubicVoxels() const
+{
+  constexpr double tolerance = 1e-6;
+  const glm::dvec3 size = glm::abs(this->Spacing);
+  return glm::all(glm::lessThanEqual(glm::abs(size - size.x), glm::dvec3(tolerance * size.x)));
 }
 
 vtkVoxelGrid vtkVoxelGrid::VoxelsToCells() const

@@ -59,6 +59,12 @@ struct VTKVOXELIZATION_EXPORT vtkVoxelGrid
   /// The same lattice, restricted to another extent.
   vtkVoxelGrid WithExtent(const std::array<int, 6>& extent) const;
 
+  /// So many slices of constant z, or as many as there are, from slice `first` on, counted from 0.
+  vtkVoxelGrid WithSlices(int first, int count) const;
+
+  /// Whether the spacing is the same on all axes, up to a millionth.
+  bool HasCubicVoxels() const;
+
   ///@{
   /// An image with a voxel in each cell has one point more on each axis, half a voxel off.
   vtkVoxelGrid VoxelsToCells() const;
