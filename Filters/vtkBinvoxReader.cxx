@@ -96,15 +96,9 @@ class BinvoxFile
 {
 public:
   explicit BinvoxFile(const char* name)
+    : Stream(vtkVoxelFileError::OpenFile(name))
+    , Name(name)
   {
-    vtkVoxelFileError::RequireFile(name);
-    this->Name = name;
-    this->Stream.open(this->Name, std::ios::binary);
-    if (!this->Stream)
-    {
-      throw vtkVoxelFileError(
-        vtkErrorCode::CannotOpenFileError, "The file " + this->Name + " can't be opened.");
-    }
     this->ReadHeader();
   }
 
@@ -203,8 +197,8 @@ private:
     this->Grid.Origin = corner + 0.5 * this->Grid.Spacing;
   }
 
-  std::string Name;
   std::ifstream Stream;
+  std::string Name;
   vtkVoxelGrid Grid;
 };
 }

@@ -28,15 +28,9 @@ class vtkVoxelBitsReader::File
 {
 public:
   explicit File(const char* name)
+    : Stream(vtkVoxelFileError::OpenFile(name))
+    , Name(name)
   {
-    vtkVoxelFileError::RequireFile(name);
-    this->Name = name;
-    this->Stream.open(this->Name, std::ios::binary);
-    if (!this->Stream)
-    {
-      throw vtkVoxelFileError(
-        vtkErrorCode::CannotOpenFileError, "The file " + this->Name + " can't be opened.");
-    }
     try
     {
       this->Header = vtkVoxelBitsFile::Read(this->Stream);
@@ -86,8 +80,8 @@ private:
       "The file " + this->Name + " is no .bits file, or is damaged: " + what + ".");
   }
 
-  std::string Name;
   std::ifstream Stream;
+  std::string Name;
   std::streamoff Begin = 0;
   vtkVoxelBitsFile Header;
 };

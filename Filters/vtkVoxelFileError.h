@@ -11,6 +11,7 @@
 #include "vtkErrorCode.h"
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -39,6 +40,19 @@ struct vtkVoxelFileError : std::runtime_error
       throw vtkVoxelFileError(
         vtkErrorCode::FileNotFoundError, "There is no file " + std::string(name) + ".");
     }
+  }
+
+  /// The file to read; throws one when there is none, or it can't be opened.
+  static std::ifstream OpenFile(const char* name)
+  {
+    RequireFile(name);
+    std::ifstream stream(name, std::ios::binary);
+    if (!stream)
+    {
+      throw vtkVoxelFileError(
+        vtkErrorCode::CannotOpenFileError, "The file " + std::string(name) + " can't be opened.");
+    }
+    return stream;
   }
 };
 

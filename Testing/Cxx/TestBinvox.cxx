@@ -215,17 +215,10 @@ void TestBadFiles(VoxelTestChecks& checks)
   {
     checks.Equal(title, ReadBadFile(checks, title, bytes), std::size_t(1));
   }
-  for (std::size_t length = 0; length < good.size(); length += 1 + length / 8)
-  {
-    const std::string title = "first " + std::to_string(length) + " bytes";
-    checks.Equal(title, ReadBadFile(checks, title, good.substr(0, length)), std::size_t(1));
-  }
-  constexpr int mutations = 500;
   constexpr std::size_t header = 64;
-  for (int seed = 0; seed < mutations; ++seed)
-  {
-    ReadBadFile(checks, "mutation of seed " + std::to_string(seed), Damaged(good, seed, header));
-  }
+  VoxelTestDamage(checks, good, header,
+    [&](const std::string& title, const std::string& bytes)
+    { return ReadBadFile(checks, title, bytes); });
 
   vtkNew<vtkBinvoxReader> missing;
   VoxelTestObserver observer(missing);

@@ -5,6 +5,7 @@
 #ifndef VoxelTestReaders_h
 #define VoxelTestReaders_h
 
+#include "VoxelTestFiles.h"
 #include "VoxelTestObservers.h"
 
 #include <vtkDataArray.h>
@@ -43,6 +44,25 @@ std::size_t VoxelTestRead(
     checks.Check(title + ": origin", std::isfinite(image->GetOrigin()[axis]));
   }
   return errors;
+}
+
+/// Whatever the bytes of `good` are cut to is an error; and bytes changed, three at a time and
+/// every other time within the first `header`, are what `read` takes: title and bytes, to the
+/// number of errors.
+template <typename Read>
+void VoxelTestDamage(
+  VoxelTestChecks& checks, const std::string& good, std::size_t header, const Read& read)
+{
+  for (std::size_t length = 0; length < good.size(); length += 1 + length / 8)
+  {
+    const std::string title = "first " + std::to_string(length) + " bytes";
+    checks.Equal(title, read(title, good.substr(0, length)), std::size_t(1));
+  }
+  constexpr int mutations = 500;
+  for (int seed = 0; seed < mutations; ++seed)
+  {
+    read("mutation of seed " + std::to_string(seed), VoxelTestFiles::Damaged(good, seed, header));
+  }
 }
 
 #endif
