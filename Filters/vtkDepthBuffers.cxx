@@ -595,6 +595,7 @@ void vtkDepthBuffers::ReadDensity(
         }
       });
     const vtkVoxelGL::MappedBuffer mapped(buffer, 0, buffer.GetSize(), GL_MAP_READ_BIT);
+    vtkSlicemap::CountReadBack();
     const auto* parts = static_cast<const std::uint32_t*>(mapped.Get());
     if (!parts)
     {
