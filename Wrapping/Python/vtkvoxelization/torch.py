@@ -16,8 +16,8 @@ workers into memory that these share with the trainer.
 
 Each sample is a variant of a mesh by its number. Sample i of epoch e is variant e * N + i of mesh
 i // variants, where N is the number of samples; with a seed, it is the same on each machine and with any
-number of workers. The datasets before differ by their seed: give those for training and for validation
-different ones.
+number of workers. Data sets of one seed have the same variants: give those for training and for validation
+different seeds.
 
 Workers make an OpenGL context each, when they make their first voxels. Those that are forked can do so only
 if the process that they come from has made none yet; multiprocessing_context="spawn" (or "forkserver")
