@@ -240,14 +240,19 @@ private:
     constexpr int lengthMask = 0x3f;
     constexpr int bits = 8;
     const int first = this->Stream.get();
-    std::int64_t length = first & lengthMask;
+    std::uint64_t length = first & lengthMask;
     for (int more = (1 << (3 - (first >> flagShift & 3))) - 1; more > 0; --more)
     {
-      length = length << bits | this->Stream.get();
+      length = length << bits | static_cast<unsigned char>(this->Stream.get());
     }
-    this->Stream.seekg(length, std::ios::cur);
+    if (!this->Stream || length > static_cast<std::uint64_t>(this->Size))
+    {
+      this->Stream.setstate(std::ios::failbit);
+      return;
+    }
+    this->Stream.seekg(static_cast<std::streamoff>(length), std::ios::cur);
     this->Stream.peek();
-    if (this->Stream.eof() || length > this->Size)
+    if (this->Stream.eof())
     {
       this->Stream.setstate(std::ios::failbit);
     }
