@@ -44,7 +44,7 @@ option(VTKVOXELIZATION_WARNINGS_AS_ERRORS "Treat warnings in the project's code 
 option(VTKVOXELIZATION_SANITIZE
   "Check the project's code for bad addresses, leaks and undefined behaviour as it runs" OFF)
 set(VTKVOXELIZATION_TORCH_PYTHON "" CACHE FILEPATH
-  "A Python that imports both VTK and PyTorch, for the tests that want it; the one in use if empty")
+  "A Python that imports VTK, PyTorch and trimesh, for the tests that want them; the one in use if empty")
 cmake_dependent_option(VTKVOXELIZATION_FUZZ
   "Fuzz what reads files for some minutes as tests (needs clang and its libFuzzer)" OFF
   VTKVOXELIZATION_BUILD_TESTING OFF)

@@ -29,6 +29,11 @@ constexpr int LongestLoop = 65535;
 
 constexpr std::int64_t LargestCounterBytes = std::int64_t(1) << 26;
 
+// Of variants that are done at once: bytes of their words, and triangles that may have to wait.
+constexpr std::int64_t VariantBytes = std::int64_t(1) << 24;
+constexpr std::int64_t VariantTriangles = std::int64_t(1) << 22;
+constexpr std::int64_t MostVariants = 64;
+
 // Units of textures and indices of storage buffers, as in the shaders.
 constexpr unsigned int QuadsUnit = 0;
 
@@ -51,6 +56,12 @@ std::int64_t GetOffsetAlignment()
   return alignment;
 }
 
+/// A row along x each, or the columns of four words side by side.
+std::int64_t GetInvocationsOfScan(int axis, const glm::ivec3& size, std::int64_t quadsPerRow)
+{
+  return axis == 0 ? std::int64_t(size.y) * size.z : quadsPerRow * (axis == 1 ? size.z : size.y);
+}
+
 /// Whether so many triangles lie between the columns that it pays to sort them out beforehand.
 bool MostMissAllColumns(
   const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, const vtkColumnAxes& axes)
@@ -68,6 +79,13 @@ struct vtkSolidComputePass::Box
   glm::ivec3 End;
   bool Begins = true; // whether the first voxels of the columns are in the box
   bool Ends = true;
+};
+
+/// Of the grids that lie one behind the other in a slab.
+struct vtkSolidComputePass::GridRange
+{
+  int First;
+  int Count;
 };
 
 vtkSolidComputePass::vtkSolidComputePass(vtkVoxelGL::Context context, Ties ties)
@@ -128,10 +146,78 @@ bool vtkSolidComputePass::FillParity(
   return progress(1.0);
 }
 
+int vtkSolidComputePass::GetVariantsAtOnce(
+  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, int count)
+{
+  // Small grids share what a dispatch costs, small triangles that they are fetched and sorted out.
+  constexpr std::int64_t smallGrid = std::int64_t(1) << 19;
+  constexpr std::int64_t bytesPerSmallTriangle = 64;
+  constexpr int fewest = 4;
+  const std::int64_t triangles = mesh.GetNumberOfTriangles();
+  const std::int64_t bytes = vtkSlicemap::GetNumberOfWords(grid) * WordBytes;
+  const std::int64_t room = std::min(GetStorageLimit(), VariantBytes) / bytes;
+  const glm::ivec3 n = grid.GetDimensions();
+  const bool scansAtOnce = std::max({ n.x, n.y, n.z }) <= LongestLoop;
+  const bool pays = bytes <= smallGrid || bytes <= bytesPerSmallTriangle * triangles;
+  const std::int64_t most =
+    std::min({ std::int64_t(count), MostVariants, room, VariantTriangles / triangles });
+  if (!scansAtOnce || !pays || most < fewest)
+  {
+    return 1;
+  }
+  const std::int64_t rounds = (count + most - 1) / most;
+  return static_cast<int>((count + rounds - 1) / rounds);
+}
+
+void vtkSolidComputePass::FillVariants(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
+  const std::vector<vtkVoxelMeshVariants::Variant>& variants, vtkSlicemap* target)
+{
+  this->Variants.Upload(this->Context, variants);
+  target->GetBuffer().Fill(0);
+  const Box box{ grid.GetFirst(), grid.GetFirst() + grid.GetDimensions() };
+  for (std::size_t first = 0, end = 0; first < variants.size(); first = end)
+  {
+    const int axis = variants[first].ColumnAxis;
+    while (end < variants.size() && variants[end].ColumnAxis == axis)
+    {
+      ++end;
+    }
+    const vtkColumnAxes axes(axis);
+    target->GetBuffer().BindBase(GL_SHADER_STORAGE_BUFFER, 0);
+    auto job = this->MakeJob(target, { { "COLUMN_AXIS", std::to_string(axis) } }, axes, box);
+    job.Variants = { &this->Variants, static_cast<std::uint32_t>(first),
+      static_cast<std::uint32_t>(end) };
+    const auto setUniforms = job.SetUniforms;
+    job.SetUniforms = [&](Program& program)
+    {
+      setUniforms(program);
+      program.Set("SlicesPerGrid", static_cast<unsigned int>(grid.GetDimensions().z));
+    };
+    this->Dispatch.Run(mesh, grid, job);
+
+    this->ScanGrids(target, axis, grid.GetDimensions(),
+      { static_cast<int>(first), static_cast<int>(end - first) });
+  }
+}
+
 void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* target,
   const Program::Defines& defines, const vtkColumnAxes& axes, const Box& box)
 {
   const vtkVoxelGrid& grid = target->GetGrid();
+  auto job = this->MakeJob(target, defines, axes, box);
+  job.FirstStage = MostMissAllColumns(mesh, grid, axes) ? "SIEVE" : "";
+  const auto setUniforms = job.SetUniforms;
+  job.SetUniforms = [&](Program& program)
+  {
+    setUniforms(program);
+    program.Set("EndWordsPerRow", static_cast<unsigned int>(this->ColumnEnds->GetWordsPerRow()));
+  };
+  this->Dispatch.Run(mesh, grid, job);
+}
+
+vtkTriangleDispatch::Job vtkSolidComputePass::MakeJob(vtkSlicemap* target,
+  const Program::Defines& defines, const vtkColumnAxes& axes, const Box& box) const
+{
   vtkTriangleDispatch::Job job;
   job.Name = "vtkSolidCrossings";
   job.Sources = { vtkSolidCrossingsGLSL };
@@ -141,9 +227,9 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
     job.Defines["UPPER_INCLUDED"] = "1";
   }
   job.Axes = axes;
-  job.FirstStage = MostMissAllColumns(mesh, grid, axes) ? "SIEVE" : "";
-  job.SetUniforms = [&](Program& program)
+  job.SetUniforms = [target, axes, box](Program& program)
   {
+    const vtkVoxelGrid& grid = target->GetGrid();
     program.Set("First", ToArray(axes(box.First)));
     program.Set("End", ToArray(axes(box.End)));
     program.Set("Begins", int(box.Begins));
@@ -151,9 +237,37 @@ void vtkSolidComputePass::RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* ta
     program.Set("GridFirst", ToArray(axes(grid.GetFirst())));
     program.Set("WordsPerRow", static_cast<unsigned int>(target->GetWordsPerRow()));
     program.Set("RowsPerSlice", static_cast<unsigned int>(grid.GetDimensions().y));
-    program.Set("EndWordsPerRow", static_cast<unsigned int>(this->ColumnEnds->GetWordsPerRow()));
   };
-  this->Dispatch.Run(mesh, grid, job);
+  return job;
+}
+
+Program& vtkSolidComputePass::UseScan(
+  vtkSlicemap* target, int axis, const glm::ivec3& size, Program::Defines defines)
+{
+  defines["COLUMN_AXIS"] = std::to_string(axis);
+  Program& program = vtkVoxelGetProgram(this->Context, "vtkSolidScan", defines,
+    { { GL_COMPUTE_SHADER, { vtkSlicemapLayoutGLSL, vtkSolidScanGLSL } } });
+  program.Use();
+  program.Set("Quads", int(QuadsUnit));
+  program.Set("Size", ToArray(size));
+  program.Set("QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
+  return program;
+}
+
+void vtkSolidComputePass::ScanGrids(
+  vtkSlicemap* target, int axis, const glm::ivec3& size, const GridRange& grids)
+{
+  Program& program = this->UseScan(target, axis, size, { { "GRIDS", "1" } });
+  const auto quads = vtkSlicemapTexture(target);
+  quads.Bind(QuadsUnit);
+  program.Set("FirstQuad", 0u);
+  program.Set("FirstStep", 0);
+  program.Set("Steps", axis == 0 ? 1 : size[axis]);
+  program.Set("FirstGrid", static_cast<unsigned int>(grids.First));
+  program.Set("NumberOfGrids", static_cast<unsigned int>(grids.Count));
+  vtkVoxelDispatch(
+    grids.Count * GetInvocationsOfScan(axis, size, target->GetWordsPerRow() / WordsPerQuad));
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
 void vtkSolidComputePass::Scan(vtkSlicemap* target, int axis, const Box& box)
@@ -161,17 +275,11 @@ void vtkSolidComputePass::Scan(vtkSlicemap* target, int axis, const Box& box)
   const glm::ivec3 size = box.End - box.First;
   const std::int64_t quadsPerRow = target->GetWordsPerRow() / WordsPerQuad;
   const int firstSlice = box.First.z - target->GetGrid().GetFirst().z;
-  Program& program =
-    vtkVoxelGetProgram(this->Context, "vtkSolidScan", { { "COLUMN_AXIS", std::to_string(axis) } },
-      { { GL_COMPUTE_SHADER, { vtkSlicemapLayoutGLSL, vtkSolidScanGLSL } } });
-  program.Use();
+  Program& program = this->UseScan(target, axis, size, {});
   const auto quads = vtkSlicemapTexture(target);
   quads.Bind(QuadsUnit);
-  program.Set("Quads", int(QuadsUnit));
   program.Set("FirstQuad",
     static_cast<unsigned int>(firstSlice * quadsPerRow * target->GetGrid().GetDimensions().y));
-  program.Set("Size", ToArray(size));
-  program.Set("QuadsPerRow", static_cast<unsigned int>(quadsPerRow));
   program.Set("EndWordsPerRow", static_cast<unsigned int>(this->ColumnEnds->GetWordsPerRow()));
   if (axis != 0)
   {
@@ -180,8 +288,7 @@ void vtkSolidComputePass::Scan(vtkSlicemap* target, int axis, const Box& box)
     this->ColumnCarries.BindRange(GL_SHADER_STORAGE_BUFFER, 2,
       axis == 1 ? firstSlice * carryBytes : 0, (axis == 1 ? size.z : size.y) * carryBytes);
   }
-  const std::int64_t invocations =
-    axis == 0 ? std::int64_t(size.y) * size.z : quadsPerRow * (axis == 1 ? size.z : size.y);
+  const std::int64_t invocations = GetInvocationsOfScan(axis, size, quadsPerRow);
   const int length = axis == 0 ? 1 : size[axis];
   for (int step = 0; step < length; step += LongestLoop)
   {

@@ -15,6 +15,7 @@
 
 #include "vtkSolidPass.h"
 #include "vtkTriangleDispatch.h"
+#include "vtkVoxelMeshVariants.h"
 
 class vtkSolidComputePass : public vtkSolidPass
 {
@@ -29,8 +30,19 @@ public:
   double EstimateCost(
     const vtkVoxelGrid& grid, int axis, const glm::dvec3& projectedAreas) const override;
 
+  /// All words of `target`: a grid with the extent of `grid` for each variant, one behind the other
+  /// along z, as FillSolid fills one by parity. Variants with the same column axis must follow one
+  /// another. Leaves no column ends.
+  void FillVariants(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
+    const std::vector<vtkVoxelMeshVariants::Variant>& variants, vtkSlicemap* target);
+
+  /// How many variants FillVariants should do at once, out of so many; they share what a dispatch
+  /// costs while their words stay few. One: it does not pay, or there is no room.
+  static int GetVariantsAtOnce(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, int count);
+
 private:
   struct Box;
+  struct GridRange;
 
   bool FillParity(
     const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, const Progress& progress);
@@ -38,11 +50,17 @@ private:
     const vtkVoxelMesh& mesh, vtkSlicemap* target, int axis, const Progress& progress);
   void RunTriangles(const vtkVoxelMesh& mesh, vtkSlicemap* target,
     const vtkVoxelGL::Program::Defines& defines, const vtkColumnAxes& axes, const Box& box);
+  vtkTriangleDispatch::Job MakeJob(vtkSlicemap* target, const vtkVoxelGL::Program::Defines& defines,
+    const vtkColumnAxes& axes, const Box& box) const;
   void Scan(vtkSlicemap* target, int axis, const Box& box);
+  void ScanGrids(vtkSlicemap* target, int axis, const glm::ivec3& size, const GridRange& grids);
+  vtkVoxelGL::Program& UseScan(
+    vtkSlicemap* target, int axis, const glm::ivec3& size, vtkVoxelGL::Program::Defines defines);
 
   vtkVoxelGL::Context Context;
   Ties OnSurface;
   vtkTriangleDispatch Dispatch;
+  vtkVoxelMeshVariants Variants;
   vtkVoxelGL::Buffer ColumnCarries;
   vtkVoxelGL::Buffer Counters;
 };

@@ -11,6 +11,7 @@
 // SIEVE        defined in a first stage that only lists the triangles that may cover a column, in
 //              single precision on the safe side; the stage with REST defined does them. Pays where
 //              most triangles lie between the columns.
+// VARIANTS     defined when the triangles are done for several variants of the mesh at once; see below
 // WINDING      defined when crossings are counted with their sign instead of toggled.
 // UPPER_INCLUDED  defined when solids are half open at their lower ends, see below.
 //
@@ -25,6 +26,11 @@
 //   bit u % 32 of word v * EndWordsPerRow + u / 32; a slab of rows v begins at its own first row.
 // With WINDING: storage buffer 0 holds one int a voxel, at (v * (depth + 1) + d) * nu + u; the one
 //   more voxel at the end of each column takes the crossings behind the last voxel.
+//
+// With VARIANTS: storage buffer 0 holds a grid a variant, one behind the other along z, SlicesPerGrid slices each;
+//   nothing is kept of what lies behind the last voxels. Each invocation goes through VariantsAtOnce variants,
+//   from FirstVariant on and up to EndVariant, and does for itself those in which its triangle may cover a
+//   column, found as by SIEVE. What waits in the queue is variant * NumberOfTriangles + triangle.
 //
 // A row v crosses an edge when one end point lies at or before v and the other behind it. A column
 // (u, v) is covered when u lies between the crossings of the two edges, the lower bound included. Both
@@ -46,6 +52,12 @@ uniform uint WordsPerRow;
 uniform uint RowsPerSlice;
 uniform uint EndWordsPerRow;
 uniform float SingleMargin;
+#ifdef VARIANTS
+uniform uint FirstVariant;
+uniform uint EndVariant;
+uniform uint VariantsAtOnce;
+uniform uint SlicesPerGrid;
+#endif
 
 #ifdef WINDING
 layout(std430, binding = 0) buffer Counters
@@ -57,10 +69,12 @@ layout(std430, binding = 0) buffer Slicemap
 {
   uint Words[];
 };
+#ifndef VARIANTS
 layout(std430, binding = 1) buffer ColumnEnds
 {
   uint Behind[];
 };
+#endif
 #endif
 
 // Columns of a triangle's bounding rectangle that one invocation does by itself.
@@ -192,15 +206,20 @@ void crossColumn(Span span, int u, int v)
 #else
   uvec3 voxel = uvec3(at.x, at.y, d - First.z);
 #endif
+#ifdef VARIANTS
+  voxel.z += Variant * SlicesPerGrid;
+#endif
   if (d < End.z)
   {
     atomicXor(Words[slicemapWord(voxel, WordsPerRow, RowsPerSlice)], slicemapBit(voxel.x));
   }
+#ifndef VARIANTS
   else if (Ends)
   {
     uvec3 column = uvec3(at.x, v - First.y, 0u);
     atomicXor(Behind[slicemapWord(column, EndWordsPerRow, 0u)], slicemapBit(column.x));
   }
+#endif
 #endif
 }
 
@@ -216,16 +235,85 @@ void rectangleOf(Outline t, out ivec2 first, out ivec2 end)
   end.y = firstFrom(t.Highest.y, First.y, End.y);
 }
 
-#if defined(CUT) || defined(TILES) || defined(UNCUT)
-
-void rectangleOf(uint triangle, out ivec2 first, out ivec2 end)
+// Whether the origin is left or right of all edges, or so close to them that single precision can't tell.
+bool mayCover(vec2 a, vec2 b, vec2 c)
 {
-  rectangleOf(outlineOf(fetchTriangle(triangle)), first, end);
+  vec3 distances = vec3(a.x * b.y - a.y * b.x, b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x);
+  vec3 size = vec3(abs(a.x) + abs(a.y), abs(b.x) + abs(b.y), abs(c.x) + abs(c.y));
+  vec3 slack = 4.0 * SingleMargin * (size + size.yzx + SingleMargin);
+  return !(any(lessThan(distances, -slack)) && any(greaterThan(distances, slack)));
 }
 
-void doTile(uint triangle, uvec2 tile)
+bool mayCoverColumns(StoredTriangle stored)
 {
-  Outline t = outlineOf(fetchTriangle(triangle));
+  vec2 a = roughIndexOf(stored.A).xy;
+  vec2 b = roughIndexOf(stored.B).xy;
+  vec2 c = roughIndexOf(stored.C).xy;
+  vec2 first = max(ceil(min(a, min(b, c)) - SingleMargin), vec2(First.xy));
+  vec2 end = min(floor(max(a, max(b, c)) + SingleMargin) + 1.0, vec2(End.xy));
+  vec2 size = max(end - first, vec2(0.0));
+  float columns = size.x * size.y;
+  return columns > 1.0 || (columns > 0.0 && mayCover(a - first, b - first, c - first));
+}
+
+// A triangle that waited in the queue.
+StoredTriangle fetchItem(uint item)
+{
+#ifdef VARIANTS
+  useVariant(item / NumberOfTriangles);
+  return fetchTriangle(item % NumberOfTriangles);
+#else
+  return fetchTriangle(item);
+#endif
+}
+
+// Crosses all columns of a triangle, or leaves it to the stages of large ones.
+void crossTriangle(StoredTriangle stored, uint item)
+{
+  Outline t = outlineOf(stored);
+  ivec2 first, end;
+  rectangleOf(t, first, end);
+  float columns = float(end.x - first.x) * float(end.y - first.y);
+  bool isLarge = columns > float(DIRECT_COLUMNS);
+  // Renderers in software skip loops, but not branches.
+  for (bool waits = isLarge; waits; waits = false)
+  {
+    enqueueLarge(item);
+  }
+  int lastRow = isLarge || columns <= 0.0 ? first.y - 1 : end.y - 1;
+
+  // Rows and columns in one loop, so that neighbouring invocations differ by their sums only.
+  Span span;
+  span.End = 0;
+  int u = 0;
+  int v = first.y - 1;
+  for (;;)
+  {
+    while (u >= span.End && v < lastRow)
+    {
+      ++v;
+      span = spanOfRow(t, v, first.x, end.x);
+      u = span.First;
+    }
+    if (u >= span.End)
+    {
+      break;
+    }
+    crossColumn(span, u, v);
+    ++u;
+  }
+}
+
+#if defined(CUT) || defined(TILES) || defined(UNCUT)
+
+void rectangleOf(uint item, out ivec2 first, out ivec2 end)
+{
+  rectangleOf(outlineOf(fetchItem(item)), first, end);
+}
+
+void doTile(uint item, uvec2 tile)
+{
+  Outline t = outlineOf(fetchItem(item));
   ivec2 first, end;
   rectangleOf(t, first, end);
   ivec2 corner = first + ivec2(tile * TILE_SIZE);
@@ -242,33 +330,35 @@ void doTile(uint triangle, uvec2 tile)
 
 #elif defined(SIEVE)
 
-// Whether the origin is left or right of all edges, or so close to them that single precision can't tell.
-bool mayCover(vec2 a, vec2 b, vec2 c)
-{
-  vec3 distances = vec3(a.x * b.y - a.y * b.x, b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x);
-  vec3 size = vec3(abs(a.x) + abs(a.y), abs(b.x) + abs(b.y), abs(c.x) + abs(c.y));
-  vec3 slack = 4.0 * SingleMargin * (size + size.yzx + SingleMargin);
-  return !(any(lessThan(distances, -slack)) && any(greaterThan(distances, slack)));
-}
-
 void main()
 {
   uint triangle;
-  if (!triangleOfInvocation(triangle))
-  {
-    return;
-  }
-  StoredTriangle stored = fetchTriangle(triangle);
-  vec2 a = roughIndexOf(stored.A).xy;
-  vec2 b = roughIndexOf(stored.B).xy;
-  vec2 c = roughIndexOf(stored.C).xy;
-  vec2 first = max(ceil(min(a, min(b, c)) - SingleMargin), vec2(First.xy));
-  vec2 end = min(floor(max(a, max(b, c)) + SingleMargin) + 1.0, vec2(End.xy));
-  vec2 size = max(end - first, vec2(0.0));
-  float columns = size.x * size.y;
-  if (columns > 1.0 || (columns > 0.0 && mayCover(a - first, b - first, c - first)))
+  if (triangleOfInvocation(triangle) && mayCoverColumns(fetchTriangle(triangle)))
   {
     enqueueRest(triangle);
+  }
+}
+
+#elif defined(VARIANTS)
+
+void main()
+{
+  uint triangle = indexOfInvocation() % NumberOfTriangles;
+  uint first = FirstVariant + indexOfInvocation() / NumberOfTriangles * VariantsAtOnce;
+  uint end = min(first + VariantsAtOnce, EndVariant);
+  StoredTriangle stored = fetchTriangle(triangle);
+  uint covering = 0u;
+  for (uint variant = first; variant < end; ++variant)
+  {
+    useVariantRoughly(variant);
+    covering |= uint(mayCoverColumns(stored)) << (variant - first);
+  }
+  while (covering != 0u)
+  {
+    uint variant = first + uint(findLSB(covering));
+    covering &= covering - 1u;
+    useVariant(variant);
+    crossTriangle(stored, variant * NumberOfTriangles + triangle);
   }
 }
 
@@ -282,39 +372,9 @@ void main()
 #else
   bool exists = triangleOfInvocation(triangle);
 #endif
-  if (!exists)
+  if (exists)
   {
-    return;
-  }
-  Outline t = outlineOf(fetchTriangle(triangle));
-  ivec2 first, end;
-  rectangleOf(t, first, end);
-  float columns = float(end.x - first.x) * float(end.y - first.y);
-  if (columns > float(DIRECT_COLUMNS))
-  {
-    enqueueLarge(triangle);
-    return;
-  }
-
-  // Rows and columns in one loop, so that neighbouring invocations differ by their sums only.
-  Span span;
-  span.End = 0;
-  int u = 0;
-  int v = first.y - 1;
-  for (;;)
-  {
-    while (u >= span.End && v + 1 < end.y)
-    {
-      ++v;
-      span = spanOfRow(t, v, first.x, end.x);
-      u = span.First;
-    }
-    if (u >= span.End)
-    {
-      return;
-    }
-    crossColumn(span, u, v);
-    ++u;
+    crossTriangle(fetchTriangle(triangle), triangle);
   }
 }
 

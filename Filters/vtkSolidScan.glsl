@@ -4,6 +4,9 @@
 // Follows vtkSlicemapLayout.glsl.
 //
 // COLUMN_AXIS  0, 1 or 2: the columns run along x, y or z.
+// GRIDS        defined when storage buffer 0 holds several grids of Size voxels, one behind the other along z, of
+//              which NumberOfGrids are scanned from FirstGrid on, in one go. Nothing is kept then of what lies
+//              behind the columns: storage buffers 1 and 2 are left out.
 //
 // Quads            RGBA32UI buffer texture over the buffer that holds storage buffer 0, four words a
 //                  texel; the slab begins at texel FirstQuad
@@ -27,11 +30,16 @@ uniform uint EndWordsPerRow;
 uniform int FirstStep;
 uniform int Steps;
 uniform bool Ends;
+#ifdef GRIDS
+uniform uint FirstGrid;
+uniform uint NumberOfGrids;
+#endif
 
 layout(std430, binding = 0) buffer Slicemap
 {
   uvec4 Words[];
 };
+#ifndef GRIDS
 #if COLUMN_AXIS == 0
 layout(std430, binding = 1) buffer ColumnEnds
 {
@@ -42,17 +50,24 @@ layout(std430, binding = 1) buffer ColumnEnds
 {
   uvec4 Behind[];
 };
-#endif
-#if COLUMN_AXIS != 0
 layout(std430, binding = 2) buffer ColumnCarries
 {
   uvec4 Carries[];
 };
 #endif
+#endif
 
-uint invocation()
+// What an invocation scans, each grid having so many: false for those at the end that scan nothing.
+bool columnOfInvocation(uint columnsPerGrid, out uint column)
 {
-  return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+  uint index = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+#ifdef GRIDS
+  column = FirstGrid * columnsPerGrid + index;
+  return index < NumberOfGrids * columnsPerGrid;
+#else
+  column = index;
+  return index < columnsPerGrid;
+#endif
 }
 
 #if COLUMN_AXIS == 0
@@ -65,8 +80,8 @@ uint carryOf(uint word)
 
 void main()
 {
-  uint row = invocation();
-  if (row >= uint(Size.y * Size.z))
+  uint row;
+  if (!columnOfInvocation(uint(Size.y * Size.z), row))
   {
     return;
   }
@@ -98,11 +113,13 @@ void main()
       Words[texel - FirstQuad] = bits;
     }
   }
+#ifndef GRIDS
   if (carry != 0u)
   {
     uvec3 column = uvec3(row % uint(Size.y), row / uint(Size.y), 0u);
     atomicXor(Behind[slicemapWord(column, EndWordsPerRow, 0u)], slicemapBit(column.x));
   }
+#endif
 }
 
 #else
@@ -110,22 +127,29 @@ void main()
 // The columns of one uvec4 side by side, a step along the column for each turn of the loop.
 void main()
 {
-  uint column = invocation();
 #if COLUMN_AXIS == 1
-  uint rows = uint(Size.z);
   uint step = QuadsPerRow;
-  uint texel = FirstQuad + (column / QuadsPerRow * uint(Size.y)) * QuadsPerRow + column % QuadsPerRow;
+  uint columnsPerGrid = QuadsPerRow * uint(Size.z);
 #else
-  uint rows = uint(Size.y);
   uint step = QuadsPerRow * uint(Size.y);
-  uint texel = FirstQuad + column;
+  uint columnsPerGrid = step;
 #endif
-  texel += uint(FirstStep) * step;
-  if (column >= rows * QuadsPerRow)
+  uint column;
+  if (!columnOfInvocation(columnsPerGrid, column))
   {
     return;
   }
+#if COLUMN_AXIS == 1
+  uint texel = column / QuadsPerRow * uint(Size.y) * QuadsPerRow + column % QuadsPerRow;
+#else
+  uint texel = column / columnsPerGrid * uint(Size.z) * step + column % columnsPerGrid;
+#endif
+  texel += FirstQuad + uint(FirstStep) * step;
+#ifdef GRIDS
+  uvec4 carry = uvec4(0u);
+#else
   uvec4 carry = Carries[column];
+#endif
   for (int i = 0; i < Steps; ++i, texel += step)
   {
     uvec4 toggles = texelFetch(Quads, int(texel));
@@ -135,11 +159,13 @@ void main()
     }
     carry ^= toggles;
   }
+#ifndef GRIDS
   Carries[column] = carry;
   if (Ends)
   {
     Behind[column] ^= carry;
   }
+#endif
 }
 
 #endif

@@ -26,6 +26,7 @@
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 #include "vtkVoxelMeshDisplacement.h"
+#include "vtkVoxelMeshVariants.h"
 
 #include "vtkTetraShellGLSL.h"
 
@@ -33,6 +34,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
@@ -91,12 +93,27 @@ void AllocateOrThrow(vtkSlicemap* slicemap, const vtkVoxelGrid& grid)
   }
 }
 
+/// So many grids, one behind the other along z, as one: for their words only.
+vtkVoxelGrid StackOf(const vtkVoxelGrid& grid, int count)
+{
+  vtkVoxelGrid stack = grid;
+  stack.Extent[5] = grid.Extent[4] + count * grid.GetDimensions().z - 1;
+  return stack;
+}
+
 /// `part`, whose grid lies within that of `all`, becomes a copy of that part.
 void CopyPart(vtkSlicemap* all, const vtkVoxelGrid& grid, vtkSlicemap* part)
 {
   AllocateOrThrow(part, grid);
   const glm::ivec3 offset = all->GetGrid().GetFirst() - grid.GetFirst();
   part->CopyVoxels(all, { offset.x, offset.y, offset.z });
+}
+
+constexpr auto OnSurface = vtkSolidPass::Ties::UpperInside;
+
+vtkSolidComputePass& GetComputePass(const vtkVoxelGL::Context& context)
+{
+  return GetKept<vtkSolidComputePass>("tetrahedra compute pass", context, context, OnSurface);
 }
 
 /// The axis is the same for all parts of `whole`.
@@ -143,6 +160,13 @@ struct vtkTetraCoveringVoxelizer::Internals
 struct vtkTetraCoveringVoxelizer::Placement
 {
   glm::dmat4 Transform;
+  std::uint32_t FirstDisplacement;
+};
+
+/// A variant: the voxels as the untransformed model sees them.
+struct vtkTetraCoveringVoxelizer::View
+{
+  vtkVoxelGrid Grid;
   std::uint32_t FirstDisplacement;
 };
 
@@ -298,18 +322,15 @@ int vtkTetraCoveringVoxelizer::GetNumberOfWorkSlicemaps()
 bool vtkTetraCoveringVoxelizer::RunPass(
   vtkVoxelMesh& mesh, vtkSlicemap* solid, const std::function<bool(double)>& progress)
 {
-  constexpr auto ties = vtkSolidPass::Ties::UpperInside;
   const auto context = this->GetContext()->GetRecord();
   if (this->GetUsedBackend() == BACKEND_COMPUTE)
   {
-    return FillColumns(
-      GetKept<vtkSolidComputePass>("tetrahedra compute pass", context, context, ties), mesh,
-      this->GetWholeGrid(), solid, progress);
+    return FillColumns(GetComputePass(context), mesh, this->GetWholeGrid(), solid, progress);
   }
   if (this->RasterMethod == RASTER_COLUMNS)
   {
     return FillColumns(
-      GetKept<vtkSolidRasterPass>("tetrahedra columns pass", context, context, ties), mesh,
+      GetKept<vtkSolidRasterPass>("tetrahedra columns pass", context, context, OnSurface), mesh,
       this->GetWholeGrid(), solid, progress);
   }
   auto& pass = GetKept<vtkTetraRasterPass>("tetrahedra raster pass", context, context);
@@ -318,39 +339,47 @@ bool vtkTetraCoveringVoxelizer::RunPass(
   return pass.FillSolid(mesh, this->Tetra->Model->GetFrame().Origin, solid, method, progress);
 }
 
+/// Displaces the mesh too if the variants are.
+vtkTetraCoveringVoxelizer::View vtkTetraCoveringVoxelizer::See(
+  vtkTypeInt64 variant, vtkVoxelMesh& mesh, const vtkVoxelGrid& grid)
+{
+  mesh.SetDisplacement(nullptr);
+  if (!this->HasVariants())
+  {
+    return { grid, 0 };
+  }
+  const vtkTetraModel& model = *this->Tetra->Model;
+  const auto augmentation = this->GetAugmentation(model);
+  const bool displaced = augmentation.Amplitude > 0.0f;
+  const auto& displacement = this->Tetra->Displacement;
+  if (displaced)
+  {
+    this->PrepareDisplacement(augmentation);
+    mesh.SetDisplacement(&displacement);
+  }
+  const auto placement =
+    this->Place(augmentation, variant, model, displaced ? displacement.GetLargest() : 0.0);
+  return { TransformBack(grid, placement.Transform), placement.FirstDisplacement };
+}
+
 bool vtkTetraCoveringVoxelizer::FillSolid(vtkTypeInt64 variant, vtkVoxelMesh& mesh,
   const vtkVoxelGrid& grid, vtkSlicemap* solid, const std::function<bool(double)>& progress)
 {
-  vtkVoxelGrid seen = grid;
-  mesh.SetDisplacement(nullptr);
-  if (this->HasVariants())
-  {
-    const vtkTetraModel& model = *this->Tetra->Model;
-    const auto augmentation = this->GetAugmentation(model);
-    const bool displaced = augmentation.Amplitude > 0.0f;
-    auto& displacement = this->Tetra->Displacement;
-    if (displaced)
-    {
-      this->PrepareDisplacement(augmentation);
-      mesh.SetDisplacement(&displacement);
-    }
-    const auto placement =
-      this->Place(augmentation, variant, model, displaced ? displacement.GetLargest() : 0.0);
-    displacement.SetFirst(placement.FirstDisplacement);
-    seen = TransformBack(grid, placement.Transform);
-  }
+  const View view = this->See(variant, mesh, grid);
+  this->Tetra->Displacement.SetFirst(view.FirstDisplacement);
   // The bits are the same for both grids.
-  AllocateOrThrow(solid, seen);
+  AllocateOrThrow(solid, view.Grid);
   const bool finished = this->RunPass(mesh, solid, progress);
   mesh.SetDisplacement(nullptr);
   AllocateOrThrow(solid, grid);
   return finished;
 }
 
-void vtkTetraCoveringVoxelizer::FindShell(vtkSlicemap* solid, vtkSlicemap* shell)
+void vtkTetraCoveringVoxelizer::FindShell(
+  vtkSlicemap* solid, const vtkVoxelGrid& grid, vtkSlicemap* shell)
 {
   AllocateOrThrow(shell, solid->GetGrid());
-  const glm::ivec3 n = solid->GetGrid().GetDimensions();
+  const glm::ivec3 n = grid.GetDimensions();
   const std::int64_t quadsPerRow = solid->GetWordsPerRow() / WordsPerQuad;
   vtkVoxelGL::Program::Defines defines{ { "NEIGHBOURS", std::to_string(this->Shell) } };
   if (quadsPerRow == 1)
@@ -387,7 +416,7 @@ bool vtkTetraCoveringVoxelizer::Voxelize(
   {
     return false;
   }
-  this->FindShell(solid, shell);
+  this->FindShell(solid, grown, shell);
   const auto take = [&](vtkSlicemap* all, vtkSlicemap* part)
   {
     if (grown.Extent == grid.Extent)
@@ -451,38 +480,97 @@ vtkDataObject* vtkTetraCoveringVoxelizer::UpdateInput()
   return this->GetInputDataObject(0, 0);
 }
 
-/// Where a variant of a batch is on the GPU.
+/// Where some variants of a batch are on the GPU, one grid behind the other along z.
 struct vtkTetraCoveringVoxelizer::Slot
 {
   vtkNew<vtkSlicemap> Solid;
   vtkNew<vtkSlicemap> Shell;
+  int First = 0;           ///< variant of the batch
+  std::vector<int> Places; ///< of that and the following ones
 };
+
+int vtkTetraCoveringVoxelizer::GetVariantsAtOnce(
+  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, int count)
+{
+  return this->GetUsedBackend() == BACKEND_COMPUTE
+    ? vtkSolidComputePass::GetVariantsAtOnce(mesh, grid, count)
+    : 1;
+}
+
+bool vtkTetraCoveringVoxelizer::FillSlot(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
+  vtkTypeInt64 first, Slot& slot, const std::function<bool(double)>& progress)
+{
+  const auto count = static_cast<int>(slot.Places.size());
+  if (count == 1)
+  {
+    slot.Places = { 0 };
+    return this->FillSolid(first + slot.First, mesh, grid, slot.Solid, progress);
+  }
+  if (!progress(0.0))
+  {
+    return false;
+  }
+  auto& pass = GetComputePass(this->GetContext()->GetRecord());
+  std::vector<vtkVoxelMeshVariants::Variant> variants;
+  for (int i = 0; i < count; ++i)
+  {
+    const View view = this->See(first + slot.First + i, mesh, grid);
+    variants.push_back({ view.Grid.GetWorldToIndex(), pass.GetCheapestAxis(mesh, view.Grid),
+      view.FirstDisplacement });
+  }
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&](int a, int b) { return variants[a].ColumnAxis < variants[b].ColumnAxis; });
+  std::vector<vtkVoxelMeshVariants::Variant> ordered;
+  for (int place = 0; place < count; ++place)
+  {
+    slot.Places[order[place]] = place;
+    ordered.push_back(variants[order[place]]);
+  }
+  AllocateOrThrow(slot.Solid, StackOf(grid, count));
+  pass.FillVariants(mesh, grid, ordered, slot.Solid);
+  mesh.SetDisplacement(nullptr);
+  for (int i = 1; i <= count; ++i)
+  {
+    if (!progress(double(i) / count))
+    {
+      return false;
+    }
+  }
+  return true;
+}
 
 bool vtkTetraCoveringVoxelizer::FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
   vtkTypeInt64 first, int count, const BatchReader& read)
 {
   vtkVoxelMesh& closed = this->PrepareMesh(mesh);
-  // One variant is read back while the GPU is busy with the next one.
+  const int atOnce = this->GetVariantsAtOnce(closed, grid, count);
+  const int rounds = (count + atOnce - 1) / atOnce;
+  // One slot is read back while the GPU is busy with the next one.
   std::array<Slot, 2> slots;
   for (const Slot& slot : slots)
   {
     slot.Solid->SetContext(this->GetContext());
     slot.Shell->SetContext(this->GetContext());
   }
-  const auto fill = [&](int i)
+  const auto fill = [&](int round)
   {
-    const Slot& slot = slots[i % 2];
-    const bool finished = this->FillSolid(first + i, closed, grid, slot.Solid,
-      [&](double done) { return this->ReportProgress((i + done) / count); });
+    Slot& slot = slots[round % 2];
+    slot.First = round * atOnce;
+    slot.Places.resize(std::min(atOnce, count - slot.First));
+    const auto variants = static_cast<double>(slot.Places.size());
+    const bool finished = this->FillSlot(closed, grid, first, slot,
+      [&](double done) { return this->ReportProgress((slot.First + done * variants) / count); });
     if (finished && this->Shell != SHELL_NONE)
     {
-      this->FindShell(slot.Solid, slot.Shell);
+      this->FindShell(slot.Solid, grid, slot.Shell);
     }
     return finished;
   };
-  for (int i = 0; i <= count; ++i)
+  for (int round = 0; round <= rounds; ++round)
   {
-    if ((i < count && !fill(i)) || (i > 0 && !read(i - 1, slots[(i - 1) % 2])))
+    if ((round < rounds && !fill(round)) || (round > 0 && !read(slots[(round - 1) % 2])))
     {
       return false;
     }
@@ -539,16 +627,27 @@ bool vtkTetraCoveringVoxelizer::VoxelizeBatch(
     {
       throw std::runtime_error("There is no memory for the batch. Use smaller ones.");
     }
-    return [=](int i, const Slot& slot)
+    return [=](const Slot& slot)
     {
-      unsigned char* out = array->GetPointer(i * voxels);
+      std::vector<unsigned char*> outs(slot.Places.size());
+      for (std::size_t i = 0; i < outs.size(); ++i)
+      {
+        outs[slot.Places[i]] = array->GetPointer((slot.First + static_cast<int>(i)) * voxels);
+      }
       vtkSlicemap* set = hasShell && !this->KeepInterior ? slot.Shell : slot.Solid;
       bool good = set->Read([&](const std::uint32_t* words)
-        { vtkSlicemapImage::Expand(words, grid, this->GetForegroundValue(), out); });
+        { vtkSlicemapImage::Expand(words, grid, this->GetForegroundValue(), outs); });
       if (good && hasShell && this->KeepInterior)
       {
-        good = slot.Shell->Read([&](const std::uint32_t* words)
-          { vtkSlicemapImage::Overlay(words, grid, this->ShellValue, out); });
+        good = slot.Shell->Read(
+          [&](const std::uint32_t* words)
+          {
+            for (unsigned char* out : outs)
+            {
+              vtkSlicemapImage::Overlay(words, grid, this->ShellValue, out);
+              words += vtkSlicemap::GetNumberOfWords(grid);
+            }
+          });
       }
       return good;
     };
@@ -566,12 +665,20 @@ bool vtkTetraCoveringVoxelizer::VisitBatch(vtkTypeInt64 first, int count,
 {
   const auto begin = [&](const vtkVoxelGrid& grid) -> BatchReader
   {
-    return [=](int i, const Slot& slot)
+    return [=](const Slot& slot)
     {
       vtkSlicemap* set = this->Shell == SHELL_NONE ? slot.Solid : slot.Shell;
-      bool goesOn = false;
-      return set->Read([&](const std::uint32_t* words) { goesOn = visit(i, grid, words); }) &&
-        goesOn;
+      bool goesOn = true;
+      const auto visitAll = [&](const std::uint32_t* words)
+      {
+        const std::int64_t wordsPerGrid = vtkSlicemap::GetNumberOfWords(grid);
+        for (std::size_t i = 0; goesOn && i < slot.Places.size(); ++i)
+        {
+          goesOn =
+            visit(slot.First + static_cast<int>(i), grid, words + slot.Places[i] * wordsPerGrid);
+        }
+      };
+      return set->Read(visitAll) && goesOn;
     };
   };
   return this->RunBatch(first, count, 0, begin);

@@ -315,12 +315,17 @@ private:
     const vtkTetraModel& model, double largestDisplacement);
   vtkVoxelMesh& PrepareMesh(vtkVoxelMesh& mesh);
   void PrepareDisplacement(const vtkTetraAugmentation& augmentation);
+  struct View;
+  View See(vtkTypeInt64 variant, vtkVoxelMesh& mesh, const vtkVoxelGrid& grid);
   bool RunPass(vtkVoxelMesh& mesh, vtkSlicemap* solid, const std::function<bool(double)>& progress);
   bool FillSolid(vtkTypeInt64 variant, vtkVoxelMesh& mesh, const vtkVoxelGrid& grid,
     vtkSlicemap* solid, const std::function<bool(double)>& progress);
-  void FindShell(vtkSlicemap* solid, vtkSlicemap* shell);
+  void FindShell(vtkSlicemap* solid, const vtkVoxelGrid& grid, vtkSlicemap* shell);
   struct Slot;
-  using BatchReader = std::function<bool(int i, const Slot& slot)>;
+  using BatchReader = std::function<bool(const Slot& slot)>;
+  int GetVariantsAtOnce(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, int count);
+  bool FillSlot(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkTypeInt64 first, Slot& slot,
+    const std::function<bool(double)>& progress);
   bool FillBatch(vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, vtkTypeInt64 first, int count,
     const BatchReader& read);
   bool RunBatch(vtkTypeInt64 first, int count, std::int64_t bytesPerVoxel,

@@ -5,7 +5,7 @@
 // ONE_QUAD     defined when a row has one quad
 //
 // Solid        the words of the solid, four a texel
-// Size         number of voxels along x, y and z
+// Size         number of voxels along x, y and z of a grid; there may be several, one behind the other along z
 // QuadsPerRow  number of texels of a row
 
 uniform usamplerBuffer Solid;
@@ -16,12 +16,15 @@ uniform uint QuadsPerRow;
 const int MOST_OFF = NEIGHBOURS == 6 ? 1 : 2;
 const int MOST_OFF_IN_LINES = NEIGHBOURS == 6 ? 0 : NEIGHBOURS == 18 ? 1 : 2;
 
+// The first quad of the grid at hand.
+int Begin;
+
 uvec4 quadAt(ivec3 at)
 {
   bool inside = at.x >= 0 && at.x < int(QuadsPerRow) && at.y >= 0 && at.y < Size.y && at.z >= 0 &&
     at.z < Size.z;
   int row = at.z * Size.y + at.y;
-  return inside ? sourceQuad(Solid, uint(row * int(QuadsPerRow) + at.x)) : uvec4(0u);
+  return inside ? sourceQuad(Solid, uint(Begin + row * int(QuadsPerRow) + at.x)) : uvec4(0u);
 }
 
 uvec4 kernel(uint quad)
@@ -31,8 +34,9 @@ uvec4 kernel(uint quad)
   // Renderers in software skip loops, but not branches: most quads are empty.
   for (bool isLeft = solid != uvec4(0u); isLeft; isLeft = false)
   {
-    int row = int(quad / QuadsPerRow);
+    int row = int(quad / QuadsPerRow) % (Size.y * Size.z);
     ivec3 place = ivec3(int(quad % QuadsPerRow), row % Size.y, row / Size.y);
+    Begin = int(quad) - row * int(QuadsPerRow) - place.x;
     uvec4 all = solid;
     uvec4 lines = uvec4(FULL_WORD);
     uint before = FULL_WORD;

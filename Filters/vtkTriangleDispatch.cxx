@@ -5,10 +5,12 @@
 #include "vtkSlicemapKernel.h"
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
+#include "vtkVoxelMeshVariants.h"
 
 #include "vtkSlicemapLayoutGLSL.h"
 #include "vtkVoxelMeshDisplacementGLSL.h"
 #include "vtkVoxelMeshFetchGLSL.h"
+#include "vtkVoxelMeshVariantsGLSL.h"
 #include "vtkVoxelTileQueueGLSL.h"
 #include "vtkVoxelTriangleRangeGLSL.h"
 
@@ -35,6 +37,10 @@ constexpr GLintptr RestGroupsOffset = 48;
 constexpr GLuint QueueBinding = 2;
 
 constexpr unsigned int MeshUnit = 1;
+constexpr unsigned int VariantsUnit = 7;
+
+// Of one invocation: fetching a triangle pays for many, and many invocations keep a GPU busy.
+constexpr std::uint32_t VariantsAtOnce = 16;
 
 /// The swizzle of the axes where each of them depends on one world axis alone, its own; else empty.
 std::string GetAlignedAxes(const glm::dmat4& matrix, const vtkColumnAxes& axes)
@@ -102,11 +108,10 @@ Real GetMargin(double roundings, double largestTerms)
 
 namespace
 {
-/// An empty queue with room for all triangles of the mesh, small ones too when they are to wait.
+/// An empty queue with room for so many triangles, small ones too when they are to wait.
 void StartQueue(vtkVoxelGL::Buffer& queue, const vtkVoxelGL::Context& context,
-  const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid, bool leavesRest)
+  std::uint32_t triangles, const vtkVoxelGrid& grid, bool leavesRest)
 {
-  const std::uint32_t triangles = mesh.GetNumberOfTriangles();
   const std::size_t words =
     QueueHeaderWords + WordsPerTile * QueueCapacity + std::size_t(triangles) * (leavesRest ? 3 : 2);
   vtkVoxelGL::Prepare(queue, context, words * WordBytes);
@@ -145,6 +150,22 @@ void vtkTriangleDispatch::BindMesh(
   program.Set("SingleMargin", GetMargin<float>(16.0, largestTerms));
 }
 
+void vtkTriangleDispatch::BindVariants(
+  Program& program, const vtkVoxelMesh& mesh, const VariantRange& range)
+{
+  mesh.Bind(program, MeshUnit);
+  range.Variants->Bind(program, VariantsUnit);
+  double largestTerms = 0.0;
+  for (const auto& variant : range.Variants->Get())
+  {
+    largestTerms = std::max(largestTerms, GetLargestTerms(mesh, variant.IndexFromWorld));
+  }
+  program.Set("SingleMargin", GetMargin<float>(16.0, largestTerms));
+  program.Set("FirstVariant", range.First);
+  program.Set("EndVariant", range.End);
+  program.Set("VariantsAtOnce", VariantsAtOnce);
+}
+
 void vtkTriangleDispatch::StartLaterStages()
 {
   Program& program = vtkVoxelGetProgram(this->Context, "vtkVoxelTileQueue",
@@ -159,23 +180,44 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
   vtkVoxelGL::Buffer& queue = job.Classified ? job.Classified->Queue : this->Queue;
   const bool leavesRest = !job.FirstStage.empty();
   const bool isClassified = job.Classified && job.Classified->IsKnown;
+  const VariantRange& range = job.Variants;
+  const std::uint32_t triangles = mesh.GetNumberOfTriangles();
   if (!isClassified)
   {
-    StartQueue(queue, this->Context, mesh, grid, leavesRest);
+    StartQueue(queue, this->Context,
+      range.Variants ? triangles * static_cast<std::uint32_t>(range.Variants->Get().size())
+                     : triangles,
+      grid, leavesRest);
   }
   queue.BindBase(GL_SHADER_STORAGE_BUFFER, QueueBinding);
 
-  std::vector<std::string> sources{ vtkSlicemapLayoutGLSL, vtkVoxelMeshDisplacementGLSL,
-    vtkVoxelMeshFetchGLSL, vtkVoxelTriangleRangeGLSL, vtkVoxelTileQueueGLSL };
+  std::vector<std::string> sources{ vtkSlicemapLayoutGLSL, vtkVoxelMeshVariantsGLSL,
+    vtkVoxelMeshDisplacementGLSL, vtkVoxelMeshFetchGLSL, vtkVoxelTriangleRangeGLSL,
+    vtkVoxelTileQueueGLSL };
   sources.insert(sources.end(), job.Sources.begin(), job.Sources.end());
   auto defines = job.Defines;
-  defines.merge(GetMeshDefines(mesh, grid, job.Axes));
+  if (range.Variants)
+  {
+    defines["VARIANTS"] = "1";
+    defines.merge(mesh.GetDefines());
+  }
+  else
+  {
+    defines.merge(GetMeshDefines(mesh, grid, job.Axes));
+  }
   const auto use = [&]
   {
     Program& program =
       vtkVoxelGetProgram(this->Context, job.Name, defines, { { GL_COMPUTE_SHADER, sources } });
     program.Use();
-    BindMesh(program, mesh, grid, job.Axes);
+    if (range.Variants)
+    {
+      this->BindVariants(program, mesh, range);
+    }
+    else
+    {
+      BindMesh(program, mesh, grid, job.Axes);
+    }
     job.SetUniforms(program);
   };
 
@@ -187,7 +229,9 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
     }
     use();
     defines.erase(job.FirstStage);
-    vtkVoxelDispatch(mesh.GetNumberOfTriangles());
+    const std::uint32_t turns =
+      range.Variants ? (range.End - range.First + VariantsAtOnce - 1) / VariantsAtOnce : 1;
+    vtkVoxelDispatch(std::uint64_t(triangles) * turns);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
   this->StartLaterStages();

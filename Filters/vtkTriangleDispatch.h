@@ -23,6 +23,7 @@
 #include <vector>
 
 class vtkVoxelMesh;
+class vtkVoxelMeshVariants;
 struct vtkVoxelGrid;
 
 class vtkTriangleDispatch
@@ -38,6 +39,15 @@ public:
     bool IsKnown = false;
   };
 
+  /// Several variants of the mesh in one dispatch, those from First on and up to End. Each
+  /// invocation of the first stage does some of them.
+  struct VariantRange
+  {
+    const vtkVoxelMeshVariants* Variants = nullptr; ///< none: the mesh as it is
+    std::uint32_t First = 0;
+    std::uint32_t End = 0;
+  };
+
   struct Job
   {
     std::string Name;                 ///< of the program
@@ -49,6 +59,7 @@ public:
     /// are.
     std::string FirstStage;
     Classification* Classified = nullptr; ///< to be filled, or to be used if known
+    VariantRange Variants;
     bool HasTriangleStage = false;
     bool HasTileStage = true; ///< of large triangles
   };
@@ -66,6 +77,8 @@ public:
 
 private:
   void StartLaterStages();
+  void BindVariants(
+    vtkVoxelGL::Program& program, const vtkVoxelMesh& mesh, const VariantRange& range);
 
   vtkVoxelGL::Context Context;
   vtkVoxelGL::Buffer Queue;

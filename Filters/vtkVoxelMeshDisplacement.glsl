@@ -20,26 +20,51 @@
 uniform usamplerBuffer Places;
 #endif
 uniform samplerBuffer Displacements;
+#ifndef VARIANTS
 uniform uint FirstDisplacement;
+#endif
 uniform uint RingMask;
 uniform float Amplitude;
 #ifdef ALONG_NORMALS
 uniform samplerBuffer Normals;
 #endif
 
-vec3 displacementOf(uint id)
+// What the displacement of a point depends on, the same for all offsets.
+struct MovedPoint
 {
-#ifdef PLACES_DIFFER
-  uint place = texelFetch(Places, int(id)).x;
-#else
-  uint place = id;
-#endif
-  vec3 free = texelFetch(Displacements, int((place + FirstDisplacement) & RingMask)).xyz;
+  uint Place;
 #ifdef ALONG_NORMALS
-  return (Amplitude * free.x) * texelFetch(Normals, int(id)).xyz;
+  vec3 Normal;
+#endif
+};
+
+MovedPoint movedPoint(uint id)
+{
+  MovedPoint moved;
+#ifdef PLACES_DIFFER
+  moved.Place = texelFetch(Places, int(id)).x;
+#else
+  moved.Place = id;
+#endif
+#ifdef ALONG_NORMALS
+  moved.Normal = texelFetch(Normals, int(id)).xyz;
+#endif
+  return moved;
+}
+
+vec3 displacementOf(MovedPoint moved)
+{
+  vec3 free = texelFetch(Displacements, int((moved.Place + FirstDisplacement) & RingMask)).xyz;
+#ifdef ALONG_NORMALS
+  return (Amplitude * free.x) * moved.Normal;
 #else
   return Amplitude * free;
 #endif
+}
+
+vec3 displacementOf(uint id)
+{
+  return displacementOf(movedPoint(id));
 }
 
 #endif

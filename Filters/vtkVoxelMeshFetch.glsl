@@ -4,7 +4,7 @@
 // Points      RGB32F buffer texture, world coordinates rounded to float
 // PointsLow   RGB32F buffer texture, what the rounding took away; with POINTS_ARE_DOUBLE only
 //
-// Follows vtkVoxelMeshDisplacement.glsl where DISPLACED is defined.
+// Follows vtkVoxelMeshVariants.glsl, and vtkVoxelMeshDisplacement.glsl where DISPLACED is defined.
 //
 // IndexFromWorld holds the three rows (a, b, c, d) of the map a * x + b * y + c * z + d from world
 // coordinates to index coordinates, in the order of the axes that the including shader works in.
@@ -17,9 +17,11 @@ uniform samplerBuffer Points;
 #ifdef POINTS_ARE_DOUBLE
 uniform samplerBuffer PointsLow;
 #endif
+#ifndef VARIANTS
 uniform dvec4 IndexFromWorld[3];
+#endif
 
-// A point as it is stored, the rest that rounding took away, and by how much it is moved.
+// A point as it is stored, the rest that rounding took away, and what moves it.
 struct StoredPoint
 {
   vec3 High;
@@ -27,7 +29,7 @@ struct StoredPoint
   vec3 Low;
 #endif
 #ifdef DISPLACED
-  vec3 Displacement;
+  MovedPoint Moved;
 #endif
 };
 
@@ -46,7 +48,7 @@ StoredPoint fetchPoint(uint id)
   point.Low = texelFetch(PointsLow, int(id)).xyz;
 #endif
 #ifdef DISPLACED
-  point.Displacement = displacementOf(id);
+  point.Moved = movedPoint(id);
 #endif
   return point;
 }
@@ -64,7 +66,7 @@ dvec3 indexOf(StoredPoint point)
   world += dvec3(point.Low);
 #endif
 #ifdef DISPLACED
-  world += dvec3(point.Displacement);
+  world += dvec3(displacementOf(point.Moved));
 #endif
 #ifdef AXES_ALIGNED
   dvec3 scale = dvec3(IndexFromWorld[0].x, IndexFromWorld[1].x, IndexFromWorld[2].x);
@@ -81,13 +83,26 @@ dvec3 indexOf(StoredPoint point)
   return index;
 }
 
+vec3 roughWorldOf(StoredPoint point)
+{
+#ifdef DISPLACED
+  return point.High + displacementOf(point.Moved);
+#else
+  return point.High;
+#endif
+}
+
 // The same in single precision, within SingleMargin.
+#ifdef VARIANTS
+vec2 roughIndexOf(StoredPoint point)
+{
+  vec4 w = vec4(roughWorldOf(point), 1.0);
+  return vec2(dot(RoughRows[0], w), dot(RoughRows[1], w));
+}
+#else
 vec3 roughIndexOf(StoredPoint point)
 {
-  vec3 world = point.High;
-#ifdef DISPLACED
-  world += point.Displacement;
-#endif
+  vec3 world = roughWorldOf(point);
 #ifdef AXES_ALIGNED
   vec3 scale = vec3(IndexFromWorld[0].x, IndexFromWorld[1].x, IndexFromWorld[2].x);
   vec3 offset = vec3(IndexFromWorld[0].w, IndexFromWorld[1].w, IndexFromWorld[2].w);
@@ -98,6 +113,7 @@ vec3 roughIndexOf(StoredPoint point)
     dot(vec4(IndexFromWorld[2]), w));
 #endif
 }
+#endif
 
 // The functions on doubles below avoid what renderers in software do number by number in double precision:
 // ceil, min, max and clamp.

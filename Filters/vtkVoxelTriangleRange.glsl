@@ -9,11 +9,16 @@ layout(local_size_x = 64) in;
 uniform uint FirstTriangle;
 uniform uint NumberOfTriangles;
 
+uint indexOfInvocation()
+{
+  uint rowLength = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+  return gl_GlobalInvocationID.y * rowLength + gl_GlobalInvocationID.x;
+}
+
 // False for the invocations at the end that have none.
 bool triangleOfInvocation(out uint triangle)
 {
-  uint rowLength = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-  uint index = gl_GlobalInvocationID.y * rowLength + gl_GlobalInvocationID.x;
+  uint index = indexOfInvocation();
   triangle = FirstTriangle + index;
   return index < NumberOfTriangles;
 }

@@ -47,18 +47,20 @@ void ExpandRow(const std::uint32_t* words, int n, const ByteTable& table, unsign
 
 /// Into memory that holds what is said; where that are zeros, they are not written again.
 template <vtkVoxelInitially Content>
-void ExpandRows(
-  const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out)
+void ExpandRows(const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue,
+  const std::vector<unsigned char*>& outs)
 {
   const glm::ivec3 n = grid.GetDimensions();
   const std::int64_t wordsPerRow = vtkSlicemap::GetWordsPerRow(grid);
+  const std::int64_t rowsPerGrid = std::int64_t(n.y) * n.z;
   const ByteTable table = vtkSlicemapImage::MakeValueTable(foregroundValue);
-  vtkSMPTools::For(0, std::int64_t(n.y) * n.z,
+  vtkSMPTools::For(0, rowsPerGrid * static_cast<std::int64_t>(outs.size()),
     [&](vtkIdType begin, vtkIdType end)
     {
-      for (vtkIdType row = begin; row < end; ++row)
+      for (std::int64_t row = begin; row < end; ++row)
       {
-        ExpandRow<Content>(words + row * wordsPerRow, n.x, table, out + std::int64_t(row) * n.x);
+        ExpandRow<Content>(
+          words + row * wordsPerRow, n.x, table, outs[row / rowsPerGrid] + row % rowsPerGrid * n.x);
       }
     });
 }
@@ -154,13 +156,19 @@ void Expand(
     return;
   }
   ExpandRows<vtkVoxelInitially::Zero>(
-    words, grid, foregroundValue, static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0));
+    words, grid, foregroundValue, { static_cast<vtkUnsignedCharArray*>(array)->GetPointer(0) });
 }
 
 void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out)
 {
-  ExpandRows<vtkVoxelInitially::Undefined>(words, grid, foregroundValue, out);
+  Expand(words, grid, foregroundValue, std::vector<unsigned char*>{ out });
+}
+
+void Expand(const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue,
+  const std::vector<unsigned char*>& outs)
+{
+  ExpandRows<vtkVoxelInitially::Undefined>(words, grid, foregroundValue, outs);
 }
 
 void ExpandToBits(const std::uint32_t* words, const vtkVoxelGrid& grid, unsigned char* out)

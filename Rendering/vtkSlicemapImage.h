@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 class vtkDataArray;
 class vtkImageData;
@@ -54,6 +55,12 @@ void Expand(
  */
 void Expand(
   const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue, unsigned char* out);
+
+/**
+ * The same for several such grids one after the other, each to its own place.
+ */
+void Expand(const std::uint32_t* words, const vtkVoxelGrid& grid, int foregroundValue,
+  const std::vector<unsigned char*>& outs);
 
 /**
  * Bits to bits as vtkBitArray has them, row after row without gaps, the most significant one of a

@@ -1,13 +1,15 @@
 // Proves that the variants of vtkTetraCoveringVoxelizer are what is asked for: random numbers are
 // those of the published generator, rotations and scales and displacements have their
 // distributions, the voxels are those of the variant's mesh voxelized the plain way, no variant
-// leaves the grid that is to hold it, and batches equal runs one by one.
+// leaves the grid that is to hold it, and batches equal runs one by one, tell how far they are, and
+// stop when they are to.
 
 #include "VoxelComparison.h"
 #include "VoxelSolidTests.h"
 #include "VoxelTestObservers.h"
 #include "VoxelTetraTests.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCounterRandom.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
@@ -16,9 +18,11 @@
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <iostream>
 
 using namespace VoxelReference;
@@ -340,6 +344,88 @@ bool TestFit(vtkPolyData* bunny)
   return checks.Passed();
 }
 
+/// Variants that are done together and in several goes, seen along all axes, with triangles of many
+/// columns and of none, on grids with sides of different lengths.
+bool TestLargeBatches(vtkPolyData* bunny)
+{
+  VoxelTestChecks checks;
+  const std::vector<std::pair<std::string, Mesh>> meshes = { { "bunny_7k", bunny },
+    { "a box", Box({ 1.0, 2.0, 3.0 }, { 31.0, 42.0, 33.0 }) },
+    { "a holed prism in double precision",
+      WithDoublePrecision(HoledPrism({ 3, 4, 5 }, 20.0, 33.0, false)) } };
+  const auto flat = MakeGrid({ 3, 50, -2, 57, 1, 9 }, { 3, 4, 5 }, { 1, 1, 4 });
+  const auto long1 = MakeGrid({ 0, 140, 0, 20, 0, 50 }, { 3, 4, 5 }, { 0.3, 2, 1 });
+  for (const auto& [name, mesh] : meshes)
+  {
+    for (const auto& grid : { flat, long1 })
+    {
+      for (const auto& settings : AllSettings())
+      {
+        const auto voxelizer = MakeVoxelizer(mesh, grid, vtkVoxelizer::BACKEND_AUTO);
+        settings.Apply(voxelizer);
+        voxelizer->SafeScaleToFitOn();
+        voxelizer->CheckWatertightOff();
+        constexpr int count = 70;
+        const vtkIdType voxels = grid->GetNumberOfPoints();
+        vtkNew<vtkUnsignedCharArray> batch;
+        checks.Check("a large batch", voxelizer->VoxelizeBatch(0, count, batch));
+        for (int i = 0; i < count; i += 3)
+        {
+          voxelizer->SetVariant(i);
+          voxelizer->Update();
+          auto* single = vtkUnsignedCharArray::SafeDownCast(
+            voxelizer->GetOutput()->GetPointData()->GetScalars());
+          checks.Check(name + ", " + settings.Name + ": variant " + std::to_string(i) + " of many",
+            single->GetRange()[1] > 0.0 &&
+              std::memcmp(single->GetPointer(0), batch->GetPointer(i * voxels), voxels) == 0);
+        }
+      }
+    }
+  }
+  return checks.Passed();
+}
+
+bool TestProgress(vtkPolyData* bunny)
+{
+  VoxelTestChecks checks;
+  const auto grid = MakeCube(bunny, 20, 3);
+  for (const auto& way : AllWays)
+  {
+    const auto voxelizer = MakeVoxelizer(bunny, grid, way);
+    AllSettings().back().Apply(voxelizer);
+    constexpr int count = 80;
+    std::vector<double> fractions;
+    std::size_t last = 0;
+    vtkNew<vtkCallbackCommand> command;
+    const std::function<void()> note = [&]
+    {
+      fractions.push_back(voxelizer->GetProgress());
+      voxelizer->SetAbortExecute(last && fractions.size() >= last);
+    };
+    command->SetClientData(const_cast<std::function<void()>*>(&note));
+    command->SetCallback([](vtkObject*, unsigned long, void* data, void*)
+      { (*static_cast<const std::function<void()>*>(data))(); });
+    voxelizer->AddObserver(vtkCommand::ProgressEvent, command);
+
+    vtkNew<vtkUnsignedCharArray> batch;
+    const std::string name = NameOf(voxelizer);
+    checks.Check(name + ": batch with progress", voxelizer->VoxelizeBatch(0, count, batch));
+    checks.Check(name + ": progress of each variant", fractions.size() >= count);
+    checks.Check(name + ": progress grows", std::is_sorted(fractions.begin(), fractions.end()));
+
+    for (const std::size_t events : { std::size_t(1), std::size_t(10), fractions.size() - 10 })
+    {
+      fractions.clear();
+      last = events;
+      checks.Check(name + ": a batch that is stopped", !voxelizer->VoxelizeBatch(0, count, batch));
+      checks.Equal(name + ": values of a batch that is stopped", batch->GetNumberOfValues(), 0);
+      checks.Equal(name + ": progress after the stop", fractions.size(), events);
+    }
+    voxelizer->SetAbortExecute(false);
+  }
+  return checks.Passed();
+}
+
 bool TestBatches(vtkPolyData* bunny)
 {
   VoxelTestChecks checks;
@@ -406,5 +492,7 @@ int TestTetraVariants(int argc, char* argv[])
   good &= TestHoles(bunny);
   good &= TestFit(bunny);
   good &= TestBatches(bunny);
+  good &= TestLargeBatches(bunny);
+  good &= TestProgress(bunny);
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
