@@ -80,6 +80,19 @@ layout(std430, binding = 1) buffer ColumnEnds
 // Columns of a triangle's bounding rectangle that one invocation does by itself.
 const int DIRECT_COLUMNS = 512;
 
+// Read before any branch, since renderers in software read uniforms behind one number by number; expressions
+// keep compilers from reading them where these are used instead.
+ivec3 boxFirst = min(First, End);
+ivec3 boxEnd = max(First, End);
+ivec3 gridFirst = min(GridFirst, First);
+uint wordsPerRow = max(WordsPerRow, 1u);
+uint rowsPerSlice = max(RowsPerSlice, 1u);
+uint endWordsPerRow = max(EndWordsPerRow, 1u);
+
+// The depths at which crossings count, half open.
+int firstDepth = Begins ? First.z : First.z - 1;
+int endOfDepths = Ends ? End.z + 1 : End.z;
+
 // The columns of a row that a triangle covers, and its depth along them.
 struct Span
 {
@@ -187,37 +200,36 @@ void crossColumn(Span span, int u, int v)
 {
   double depth = span.Depth + (double(u) - span.Start) * span.Gradient;
   depth = bounded(depth, span.Nearest, span.Farthest);
-  int d = firstFrom(depth, First.z - 1, End.z);
-  d = Begins ? max(d, First.z) : d;
-  if (d < First.z)
+  int d = firstFrom(depth, firstDepth, boxEnd.z);
+  if (d < boxFirst.z)
   {
     return;
   }
 #ifdef WINDING
-  ivec3 size = End - First;
-  ivec3 at = ivec3(u, v, d) - First;
+  ivec3 size = boxEnd - boxFirst;
+  ivec3 at = ivec3(u, v, d) - boxFirst;
   atomicAdd(Counts[(at.y * (size.z + 1) + at.z) * size.x + at.x], span.Direction);
 #else
-  ivec3 at = ivec3(u, v, d) - GridFirst;
+  ivec3 at = ivec3(u, v, d) - gridFirst;
 #if COLUMN_AXIS == 0
-  uvec3 voxel = uvec3(at.z, at.x, v - First.y);
+  uvec3 voxel = uvec3(at.z, at.x, v - boxFirst.y);
 #elif COLUMN_AXIS == 1
-  uvec3 voxel = uvec3(at.x, at.z, v - First.y);
+  uvec3 voxel = uvec3(at.x, at.z, v - boxFirst.y);
 #else
-  uvec3 voxel = uvec3(at.x, at.y, d - First.z);
+  uvec3 voxel = uvec3(at.x, at.y, d - boxFirst.z);
 #endif
 #ifdef VARIANTS
   voxel.z += Variant * SlicesPerGrid;
 #endif
-  if (d < End.z)
+  if (d < boxEnd.z)
   {
-    atomicXor(Words[slicemapWord(voxel, WordsPerRow, RowsPerSlice)], slicemapBit(voxel.x));
+    atomicXor(Words[slicemapWord(voxel, wordsPerRow, rowsPerSlice)], slicemapBit(voxel.x));
   }
 #ifndef VARIANTS
-  else if (Ends)
+  else if (d < endOfDepths)
   {
-    uvec3 column = uvec3(at.x, v - First.y, 0u);
-    atomicXor(Behind[slicemapWord(column, EndWordsPerRow, 0u)], slicemapBit(column.x));
+    uvec3 column = uvec3(at.x, v - boxFirst.y, 0u);
+    atomicXor(Behind[slicemapWord(column, endWordsPerRow, 0u)], slicemapBit(column.x));
   }
 #endif
 #endif
@@ -229,10 +241,10 @@ void rectangleOf(Outline t, out ivec2 first, out ivec2 end)
   vec3 us = vec3(t.Lowest.x, t.Middle.x, t.Highest.x);
   float left = floor(min(us.x, min(us.y, us.z))) - 1.0;
   float right = ceil(max(us.x, max(us.y, us.z))) + 1.0;
-  first.x = int(clamp(left, float(First.x), float(End.x)));
-  end.x = int(clamp(right, float(First.x), float(End.x)));
-  first.y = firstFrom(t.Lowest.y, First.y, End.y);
-  end.y = firstFrom(t.Highest.y, First.y, End.y);
+  first.x = int(clamp(left, float(boxFirst.x), float(boxEnd.x)));
+  end.x = int(clamp(right, float(boxFirst.x), float(boxEnd.x)));
+  first.y = firstFrom(t.Lowest.y, boxFirst.y, boxEnd.y);
+  end.y = firstFrom(t.Highest.y, boxFirst.y, boxEnd.y);
 }
 
 // Whether the origin is left or right of all edges, or so close to them that single precision can't tell.
@@ -249,8 +261,8 @@ bool mayCoverColumns(StoredTriangle stored)
   vec2 a = roughIndexOf(stored.A).xy;
   vec2 b = roughIndexOf(stored.B).xy;
   vec2 c = roughIndexOf(stored.C).xy;
-  vec2 first = max(ceil(min(a, min(b, c)) - SingleMargin), vec2(First.xy));
-  vec2 end = min(floor(max(a, max(b, c)) + SingleMargin) + 1.0, vec2(End.xy));
+  vec2 first = max(ceil(min(a, min(b, c)) - SingleMargin), vec2(boxFirst.xy));
+  vec2 end = min(floor(max(a, max(b, c)) + SingleMargin) + 1.0, vec2(boxEnd.xy));
   vec2 size = max(end - first, vec2(0.0));
   float columns = size.x * size.y;
   return columns > 1.0 || (columns > 0.0 && mayCover(a - first, b - first, c - first));
