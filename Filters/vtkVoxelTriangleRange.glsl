@@ -15,10 +15,10 @@ uint indexOfInvocation()
   return gl_GlobalInvocationID.y * rowLength + gl_GlobalInvocationID.x;
 }
 
-// False for the invocations at the end that have none.
+// False for the invocations at the end that have none; these get the last triangle.
 bool triangleOfInvocation(out uint triangle)
 {
   uint index = indexOfInvocation();
-  triangle = FirstTriangle + index;
+  triangle = FirstTriangle + min(index, NumberOfTriangles - 1u);
   return index < NumberOfTriangles;
 }
