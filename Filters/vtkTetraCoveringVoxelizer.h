@@ -256,8 +256,11 @@ public:
    * The variants `first` to `first` + `count` - 1 on the whole grid, one after the other, one value
    * a voxel, x fastest, so that the array has the shape (count, nz, ny, nx); room that it has
    * already is used again. Updates the input. False, after one error, when this can't be; the array
-   * then is empty. HostOutput, Variant and the output of the filter play no role, nor does
-   * OutputScalarType, but for KeepInterior, which needs unsigned char here as well.
+   * then is empty. The Compute backend makes variants together, up to 64 of them as long as their
+   * bits take no more than 16 MiB, where grids or triangles are small. Progress is told for each of
+   * them as soon as they are there, and the batch can be stopped then. HostOutput, Variant and the
+   * output of the filter play no role, nor does OutputScalarType, but for KeepInterior, which needs
+   * unsigned char here as well.
    */
   bool VoxelizeBatch(vtkTypeInt64 first, int count, vtkUnsignedCharArray* array);
 

@@ -7,10 +7,12 @@
 //
 // Places          R32UI buffer texture, a point: the id of the first point at the same place, for points
 //                 that lie together stay together; with PLACES_DIFFER only
-// Displacements   RGB32F buffer texture, a ring of vectors, RingMask + 1 of them, a power of two; along
-//                 normals only the first component counts
+// Displacements   RGBA32F buffer texture, a ring of vectors, RingMask + 1 of them, a power of two; along
+//                 normals only the first component counts, and the fourth, which makes reading faster, never
 // Amplitude       their unit, in world coordinates
 // Normals         RGB32F buffer texture, a point: the unit normal; with ALONG_NORMALS only
+//
+// With VARIANTS, FirstDisplacement is that of the variant in use, see vtkVoxelMeshVariants.glsl.
 //
 // The point at place i takes vector i + FirstDisplacement of the ring: Ogayar et al., section III-B.
 
