@@ -5,6 +5,7 @@
 #include "vtkMorphologyPass.h"
 #include "vtkNew.h"
 #include "vtkSMPTools.h"
+#include "vtkSolidPass.h" // for vtkColumnAxes
 #include "vtkSlicemap.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkSlicemapQuadKernel.h"
@@ -16,6 +17,7 @@
 #include "vtkDepthCopyGLSL.h"
 #include "vtkDepthDensityGLSL.h"
 #include "vtkDepthMeshVertexGLSL.h"
+#include "vtkDepthPlanesGLSL.h"
 #include "vtkDepthRangesGLSL.h"
 #include "vtkDepthShellsGLSL.h"
 #include "vtkDepthVoxelsGLSL.h"
@@ -44,6 +46,7 @@ constexpr unsigned int RangesUnit = 0;
 constexpr unsigned int ColumnsUnit = 0;
 constexpr unsigned int MeshUnit = 0;
 constexpr int WordsPerQuad = 4;
+constexpr std::int64_t BytesPerQuad = 16;
 constexpr int VoxelsPerQuad = 4;
 constexpr int ColumnsPerWord = 32;
 
@@ -59,7 +62,27 @@ constexpr GLuint StencilBits = 0xff;
 /// Ranges of voxels are pairs of so many bits.
 constexpr int LargestLength = 65535;
 
+/// Cells of vtkDepthVoxels.glsl: one word by so many rows and slices.
+constexpr int CellBits = 3;
+constexpr int CellSide = 1 << CellBits;
+
 const char AxisNames[] = { 'X', 'Y', 'Z' };
+
+int CountWords(int columns)
+{
+  return (columns + ColumnsPerWord - 1) / ColumnsPerWord;
+}
+
+/// The bits of vtkDepthPlanes.glsl, an even number of them, for voxels from 0 to `length`.
+int CountBits(int length)
+{
+  int bits = CellBits + 1;
+  while (length >> bits != 0)
+  {
+    bits += 2;
+  }
+  return bits;
+}
 
 std::array<float, 3> ToArray(const glm::vec3& v)
 {
@@ -120,8 +143,15 @@ void SetView(Program& program, const glm::dmat4& worldToView)
 struct vtkDepthBuffers::Columns
 {
   int Axis;
-  int Rows;     ///< of columns
   Texture Ends; ///< of vtkDepthRanges.glsl, or of vtkDepthShells.glsl
+};
+
+/// What vtkDepthVoxels.glsl asks of the columns along an axis.
+struct vtkDepthBuffers::Source
+{
+  Texture Blocks;
+  vtkVoxelGL::Buffer PlanesBuffer;
+  Texture Planes;
 };
 
 void vtkDepthBuffers::Start(vtkVoxelGL::Context context)
@@ -435,17 +465,45 @@ Texture vtkDepthBuffers::MakeShells(
     });
 }
 
-Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, int first, int count) const
+Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, const glm::ivec3& first,
+  const glm::ivec3& size, const glm::ivec2& side) const
 {
   return MakeImage(this->Context, "vtkDepthBlocks", vtkDepthBlocksGLSL, {}, GL_RGBA32UI,
-    { (count + ColumnsPerWord - 1) / ColumnsPerWord, columns.Rows },
+    (glm::ivec2(size) + side - 1) / side,
     [&](Program& program)
     {
       columns.Ends.Bind(ColumnsUnit);
-      program.Set("Columns", int(ColumnsUnit));
-      program.Set("First", first);
-      program.Set("Count", count);
+      program.Set("Ends", int(ColumnsUnit));
+      program.Set("First", ToArray(first));
+      program.Set("Size", ToArray(size));
+      program.Set("Side", std::array<int, 2>{ side.x, side.y });
     });
+}
+
+vtkVoxelGL::Buffer vtkDepthBuffers::MakePlanes(const Columns& columns, const glm::ivec3& first,
+  const glm::ivec3& size, Program::Defines defines) const
+{
+  const int words = CountWords(size.x);
+  const std::int64_t groups = std::int64_t(words) * size.y;
+  const std::int64_t quads = groups * std::stoi(defines["PLANES"]);
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  vtkVoxelGL::Buffer planes(this->Context);
+  if (quads > texels || !planes.Allocate(static_cast<std::size_t>(quads * BytesPerQuad)))
+  {
+    throw std::runtime_error("OpenGL has no memory left for columns of voxels. Use fewer voxels.");
+  }
+  const vtkSlicemapQuadKernel kernel("vtkDepthPlanes", vtkDepthPlanesGLSL, std::move(defines));
+  kernel.Run(this->Context, planes, groups,
+    [&](Program& program)
+    {
+      columns.Ends.Bind(ColumnsUnit);
+      program.Set("Ends", int(ColumnsUnit));
+      program.Set("First", ToArray(first));
+      program.Set("Size", ToArray(size));
+      program.Set("Words", static_cast<unsigned int>(words));
+    });
+  return planes;
 }
 
 bool vtkDepthBuffers::HasObliquePairs() const
@@ -461,7 +519,7 @@ void vtkDepthBuffers::FillSolid(vtkSlicemap* target, const glm::ivec3& first) co
   {
     if (pair->Axis != Oblique)
     {
-      columns.push_back({ pair->Axis, pair->View.Size.y, this->MakeRanges(*pair) });
+      columns.push_back({ pair->Axis, this->MakeRanges(*pair) });
     }
   }
   this->Fill(target, first, columns, {});
@@ -486,7 +544,7 @@ void vtkDepthBuffers::FillSurface(
   std::vector<Columns> columns;
   for (const auto& pair : this->Effective)
   {
-    columns.push_back({ pair->Axis, pair->View.Size.y,
+    columns.push_back({ pair->Axis,
       this->MakeShells(*pair, this->MakeRanges(*pair), neighbours) });
   }
   this->Fill(target, first, columns, { { "SHELLS", "1" } });
@@ -625,34 +683,53 @@ void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
   const std::vector<Columns>& columns, Program::Defines defines) const
 {
   const glm::ivec3 size = target->GetGrid().GetDimensions();
-  std::vector<Texture> blocks;
-  std::transform(columns.begin(), columns.end(), std::back_inserter(blocks),
-    [&](const Columns& c)
-    { return c.Axis == 0 ? Texture() : this->MakeBlocks(c, first.x, size.x); });
+  const int bits = CountBits(std::max(size.y, size.z));
+  defines["BITS"] = std::to_string(bits);
+  defines["PLANES"] = std::to_string(defines.count("SHELLS") ? bits : bits / 2);
+  std::vector<Source> sources;
+  for (const Columns& column : columns)
+  {
+    const vtkColumnAxes axes(column.Axis);
+    Source source;
+    source.Blocks = this->MakeBlocks(column, axes(first), axes(size),
+      column.Axis == 0 ? glm::ivec2(CellSide) : glm::ivec2(ColumnsPerWord, CellSide));
+    if (column.Axis != 0)
+    {
+      source.PlanesBuffer = this->MakePlanes(column, axes(first), axes(size), defines);
+      source.Planes = Texture(this->Context, GL_TEXTURE_BUFFER);
+      source.Planes.AttachBuffer(GL_RGBA32UI, source.PlanesBuffer);
+    }
+    sources.push_back(std::move(source));
+  }
   for (const Columns& column : columns)
   {
     defines[std::string("HAS_") + AxisNames[column.Axis]] = "1";
   }
-  const vtkSlicemapQuadKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
+  defines["CELL_BITS"] = std::to_string(CellBits);
+  const vtkSlicemapKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
   kernel.Run(this->Context, target,
     [&](Program& program)
     {
       program.Set("First", ToArray(first));
       program.Set("Size", ToArray(size));
-      program.Set(
-        "QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
+      program.Set("WordsInUse", CountWords(size.x));
       int unit = 0;
-      const auto set = [&](const Texture& texture, const std::string& name)
+      const auto set = [&](const Texture& texture, const char* name, int axis)
       {
         texture.Bind(static_cast<unsigned int>(unit));
-        program.Set(name.c_str(), unit++);
+        program.Set((std::string(name) + AxisNames[axis]).c_str(), unit++);
       };
       for (std::size_t i = 0; i < columns.size(); ++i)
       {
-        set(columns[i].Ends, std::string("Columns") + AxisNames[columns[i].Axis]);
-        if (blocks[i])
+        const int axis = columns[i].Axis;
+        set(sources[i].Blocks, "Blocks", axis);
+        if (axis == 0)
         {
-          set(blocks[i], std::string("Blocks") + AxisNames[columns[i].Axis]);
+          set(columns[i].Ends, "Ends", axis);
+        }
+        else
+        {
+          set(sources[i].Planes, "Planes", axis);
         }
       }
     });

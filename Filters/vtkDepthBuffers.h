@@ -138,6 +138,7 @@ public:
 
 private:
   struct Columns;
+  struct Source;
 
   void CheckSize(const vtkDepthView& view) const;
   vtkVoxelGL::Framebuffer MakeBuffer(
@@ -150,7 +151,10 @@ private:
   vtkVoxelGL::Texture MakeRanges(const Pair& pair) const;
   vtkVoxelGL::Texture MakeShells(
     const Pair& pair, const vtkVoxelGL::Texture& ranges, Neighbours neighbours) const;
-  vtkVoxelGL::Texture MakeBlocks(const Columns& columns, int first, int count) const;
+  vtkVoxelGL::Texture MakeBlocks(const Columns& columns, const glm::ivec3& first,
+    const glm::ivec3& size, const glm::ivec2& side) const;
+  vtkVoxelGL::Buffer MakePlanes(const Columns& columns, const glm::ivec3& first,
+    const glm::ivec3& size, vtkVoxelGL::Program::Defines defines) const;
   bool HasObliquePairs() const;
   void Carve(vtkSlicemap* target, const Pair& pair) const;
   void KeepBoundary(vtkSlicemap* target, Neighbours neighbours) const;

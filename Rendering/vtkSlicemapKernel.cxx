@@ -19,6 +19,9 @@ namespace
 {
 constexpr std::int64_t WordBytes = 4;
 
+/// As in vtkSlicemapKernel.glsl.
+constexpr glm::ivec2 CellsPerBlock(2, 4);
+
 std::int64_t GetLimit(GLenum name)
 {
   GLint64 limit = 0;
@@ -138,6 +141,21 @@ void vtkSlicemapKernel::Run(
   }
 }
 
+std::uint64_t vtkSlicemapKernel::GetNumberOfInvocations(const glm::ivec3& size) const
+{
+  const auto cellBits = this->Defines.find("CELL_BITS");
+  if (cellBits == this->Defines.end())
+  {
+    return std::uint64_t(size.x) * size.y * size.z;
+  }
+  // Up to one cell more where a slab begins within one.
+  const int cell = 1 << std::stoi(cellBits->second);
+  const auto blocks = [&](int length, int cellsPerBlock)
+  { return std::uint64_t(length + 2 * cell - 2) / cell / cellsPerBlock + 1; };
+  return blocks(size.y, CellsPerBlock.x) * blocks(size.z, CellsPerBlock.y) * size.x *
+    CellsPerBlock.x * CellsPerBlock.y;
+}
+
 void vtkSlicemapKernel::RunCompute(
   const Context& context, vtkSlicemap* target, const Region& region, const Bind& bind) const
 {
@@ -167,7 +185,7 @@ void vtkSlicemapKernel::RunCompute(
     program.Set("BaseWord", static_cast<unsigned int>((start - aligned) / WordBytes));
     const glm::ivec3 size = region.End - region.First;
     SetRegion(program, { region.First.x, region.First.y, z }, { size.x, size.y, slices });
-    vtkVoxelDispatch(std::uint64_t(size.x) * size.y * slices);
+    vtkVoxelDispatch(this->GetNumberOfInvocations({ size.x, size.y, slices }));
   }
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }

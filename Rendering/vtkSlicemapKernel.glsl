@@ -4,6 +4,10 @@
 // stage writes them to storage buffer 0, which begins BaseWord words before slice RegionFirst.z of
 // the target; the fragment stage to pixel (word, slice * RegionSize.y + row) of an R32UI render
 // target, counted in the region.
+//
+// With CELL_BITS the compute stage calls cell() instead, for each cell of one word by 1 << CELL_BITS
+// rows and slices. It puts all words of the cell that belong to the grid. Invocations that run
+// together have cells that make a block, so that they agree more often.
 
 uniform uvec3 RegionFirst;
 uniform uvec3 RegionSize;
@@ -29,6 +33,41 @@ layout(std430, binding = 0) writeonly buffer Target
 
 uniform uint BaseWord;
 
+void put(uvec3 word, uint value)
+{
+  uvec3 at = word - RegionFirst;
+  if (at.x < RegionSize.x && at.y < RegionSize.y && at.z < RegionSize.z)
+  {
+    Words[BaseWord + (at.z * RowsPerSlice + word.y) * WordsPerRow + word.x] = value;
+  }
+}
+
+#ifdef CELL_BITS
+
+const uvec2 BLOCK = uvec2(2u, 4u);
+
+void cell(uvec3 first);
+
+void main()
+{
+  uint index =
+    gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+  uvec2 firstCell = RegionFirst.yz >> CELL_BITS;
+  uvec2 cells = (RegionFirst.yz + RegionSize.yz - 1u >> CELL_BITS) + 1u - firstCell;
+  uint blocksPerSlice = (cells.x + BLOCK.x - 1u) / BLOCK.x;
+  uvec2 within = uvec2(index % BLOCK.x, index / BLOCK.x % BLOCK.y);
+  index /= BLOCK.x * BLOCK.y;
+  uint word = index % RegionSize.x;
+  index /= RegionSize.x;
+  uvec2 at = uvec2(index % blocksPerSlice, index / blocksPerSlice) * BLOCK + within;
+  if (at.x < cells.x && at.y < cells.y)
+  {
+    cell(uvec3(RegionFirst.x + word, firstCell + at << CELL_BITS));
+  }
+}
+
+#else
+
 void main()
 {
   uint index =
@@ -38,9 +77,11 @@ void main()
   if (at.z < RegionSize.z)
   {
     uvec3 word = RegionFirst + at;
-    Words[BaseWord + (at.z * RowsPerSlice + word.y) * WordsPerRow + word.x] = kernel(word);
+    put(word, kernel(word));
   }
 }
+
+#endif
 
 #else
 
