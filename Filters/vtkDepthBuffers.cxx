@@ -62,9 +62,8 @@ constexpr GLuint StencilBits = 0xff;
 /// Ranges of voxels are pairs of so many bits.
 constexpr int LargestLength = 65535;
 
-/// Cells of vtkDepthVoxels.glsl: one word by so many rows and slices.
-constexpr int CellBits = 3;
-constexpr int CellSide = 1 << CellBits;
+/// Of a cell of vtkDepthVoxels.glsl, in columns or voxels.
+constexpr glm::ivec3 CellSize(ColumnsPerWord, 4, 8);
 
 const char AxisNames[] = { 'X', 'Y', 'Z' };
 
@@ -76,7 +75,7 @@ int CountWords(int columns)
 /// The bits of vtkDepthPlanes.glsl, an even number of them, for voxels from 0 to `length`.
 int CountBits(int length)
 {
-  int bits = CellBits + 1;
+  int bits = 4;
   while (length >> bits != 0)
   {
     bits += 2;
@@ -691,8 +690,7 @@ void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
   {
     const vtkColumnAxes axes(column.Axis);
     Source source;
-    source.Blocks = this->MakeBlocks(column, axes(first), axes(size),
-      column.Axis == 0 ? glm::ivec2(CellSide) : glm::ivec2(ColumnsPerWord, CellSide));
+    source.Blocks = this->MakeBlocks(column, axes(first), axes(size), axes(CellSize));
     if (column.Axis != 0)
     {
       source.PlanesBuffer = this->MakePlanes(column, axes(first), axes(size), defines);
@@ -705,7 +703,8 @@ void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
   {
     defines[std::string("HAS_") + AxisNames[column.Axis]] = "1";
   }
-  defines["CELL_BITS"] = std::to_string(CellBits);
+  defines["CELL_ROWS"] = std::to_string(CellSize.y);
+  defines["CELL_SLICES"] = std::to_string(CellSize.z);
   const vtkSlicemapKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
   kernel.Run(this->Context, target,
     [&](Program& program)

@@ -2,10 +2,10 @@
 // a whole where all of its columns agree; elsewhere, near the surface, 32 columns are compared at
 // once, by the planes of their bits.
 //
-// HAS_X, HAS_Y, HAS_Z  defined: there is a pair along that axis
-// SHELLS               defined: only the voxels that a pair sees on the surface
-// BITS, PLANES         those of vtkDepthPlanes.glsl
-// CELL_BITS            a cell is one word by 1 << CELL_BITS rows and slices
+// HAS_X, HAS_Y, HAS_Z     defined: there is a pair along that axis
+// SHELLS                  defined: only the voxels that a pair sees on the surface
+// BITS, PLANES            those of vtkDepthPlanes.glsl
+// CELL_ROWS, CELL_SLICES  of a cell, which is one word wide, powers of two of up to 1 << LOW_BITS
 //
 // EndsX             those of vtkDepthRanges.glsl, or with SHELLS of vtkDepthShells.glsl, of the whole
 //                   grid
@@ -32,7 +32,7 @@ uniform usamplerBuffer PlanesZ;
 uniform usampler2D BlocksZ;
 #endif
 
-const int CELL = 1 << CELL_BITS;
+const int LOW_BITS = 3;
 
 // Voxels inside, and with SHELLS those that are not on the surface; the ends of both ranges.
 #ifdef SHELLS
@@ -65,9 +65,10 @@ void ask(inout Cell cell, uvec4 block, int first, int end)
 // Whether voxels differ in the cell of a word; if not, the word.
 bool isMixed(ivec3 word, out uint bits)
 {
-  ivec3 place = word >> ivec3(0, CELL_BITS, CELL_BITS);
-  ivec3 first = place << ivec3(5, CELL_BITS, CELL_BITS);
-  ivec3 end = min(first + ivec3(32, CELL, CELL), Size);
+  ivec3 cellSize = ivec3(32, CELL_ROWS, CELL_SLICES);
+  ivec3 place = ivec3(word.x, word.y / CELL_ROWS, word.z / CELL_SLICES);
+  ivec3 first = place * cellSize;
+  ivec3 end = min(first + cellSize, Size);
   Cell cell = Cell(true, word.x >= WordsInUse, true, false);
 #ifdef HAS_X
   ask(cell, texelFetch(BlocksX, place.yz, 0), first.x, end.x);
@@ -107,12 +108,12 @@ VOXELS alongX(ivec3 word)
 #endif
 
 #if defined(HAS_Y) || defined(HAS_Z)
-// The ends of 32 columns, compared with the voxels that share all bits but the lowest CELL_BITS.
+// The ends of 32 columns, compared with the voxels that share all bits but the lowest LOW_BITS.
 struct Columns
 {
   ENDS Beyond; // the end is beyond all of these voxels
   ENDS Within; // it is one of them, by its lowest bits:
-  ENDS Low[CELL_BITS];
+  ENDS Low[LOW_BITS];
 };
 
 uint planeOf(uvec4 planes[PLANES], int plane)
@@ -140,14 +141,14 @@ Columns columnsAt(usamplerBuffer source, ivec2 word, int voxel)
   Columns columns;
   columns.Beyond = ENDS(0u);
   columns.Within = ENDS(FULL_WORD);
-  for (int bit = BITS - 1; bit >= CELL_BITS; --bit)
+  for (int bit = BITS - 1; bit >= LOW_BITS; --bit)
   {
     ENDS ends = endsOf(planes, bit);
     uint mask = uint(-((voxel >> bit) & 1));
     columns.Beyond |= columns.Within & ends & ~mask;
     columns.Within &= ~(ends ^ mask);
   }
-  for (int bit = 0; bit < CELL_BITS; ++bit)
+  for (int bit = 0; bit < LOW_BITS; ++bit)
   {
     columns.Low[bit] = endsOf(planes, bit);
   }
@@ -158,7 +159,7 @@ Columns columnsAt(usamplerBuffer source, ivec2 word, int voxel)
 VOXELS inRange(Columns columns, int voxel)
 {
   ENDS beyond = ENDS(0u);
-  for (int bit = 0; bit < CELL_BITS; ++bit)
+  for (int bit = 0; bit < LOW_BITS; ++bit)
   {
     uint mask = uint(-((voxel >> bit) & 1));
     beyond = (columns.Low[bit] & (beyond | ~mask)) | (beyond & ~mask);
@@ -183,50 +184,65 @@ uint wordOf(VOXELS voxels)
 
 #ifdef COMPUTE
 
-void cell(uvec3 word)
+// The words of a cell whose voxels differ.
+void compare(ivec3 first, ivec3 end, uint bits)
 {
-  ivec3 first = ivec3(word);
-  ivec2 end = min(first.yz + CELL, Size.yz);
-  uint bits;
-  bool mixed = isMixed(first, bits);
-  int endOfMixed = mixed ? end.y : first.z;
 #ifdef HAS_Z
-  Columns rows[CELL];
-  int count = mixed ? 1 : 0;
-  for (int once = 0; once < count; ++once)
+  Columns rows[CELL_ROWS];
+  for (int i = 0; i < CELL_ROWS; ++i)
   {
-    for (int i = 0; i < CELL; ++i)
-    {
-      rows[i] = columnsAt(PlanesZ, ivec2(first.x, min(first.y + i, Size.y - 1)), first.z);
-    }
+    rows[i] = columnsAt(PlanesZ, ivec2(first.x, min(first.y + i, Size.y - 1)), first.z);
   }
 #endif
-  for (int z = first.z; z < endOfMixed; ++z)
+  for (int z = first.z; z < end.z; ++z)
   {
 #ifdef HAS_Y
     Columns slice = columnsAt(PlanesY, ivec2(first.x, z), first.y);
 #endif
-    for (int i = 0; i < CELL; ++i)
+    for (int i = 0; i < CELL_ROWS; ++i)
     {
+      ivec3 word = ivec3(first.x, min(first.y + i, Size.y - 1), z);
       VOXELS voxels = VOXELS(bits);
 #ifdef HAS_X
-      voxels &= alongX(ivec3(first.x, min(first.y + i, Size.y - 1), z));
+      voxels &= alongX(word);
 #endif
 #ifdef HAS_Y
-      voxels &= inRange(slice, i);
+      voxels &= inRange(slice, word.y);
 #endif
 #ifdef HAS_Z
       voxels &= inRange(rows[i], z);
 #endif
-      put(uvec3(first.x, first.y + i, z), wordOf(voxels));
+      put(uvec3(word), wordOf(voxels));
     }
   }
-  for (int z = endOfMixed; z < end.y; ++z)
+}
+
+void cell(uvec3 quad)
+{
+  ivec3 first = ivec3(quad);
+  ivec3 end = min(first + ivec3(4, CELL_ROWS, CELL_SLICES), ivec3(WordsInUse, Size.yz));
+  uvec4 words = uvec4(0u);
+  uint mixed = 0u;
+  for (int x = first.x; x < end.x; ++x)
   {
-    for (int y = first.y; y < end.x; ++y)
+    uint word;
+    uint bit = 1u << uint(x - first.x);
+    mixed |= isMixed(ivec3(x, first.yz), word) ? bit : 0u;
+    words |= word * uvec4(equal(uvec4(bit), uvec4(1u, 2u, 4u, 8u)));
+  }
+  for (int z = first.z; z < end.z; ++z)
+  {
+    for (int y = first.y; y < end.y; ++y)
     {
-      put(uvec3(first.x, y, z), bits);
+      putQuad(uvec3(quad.x, y, z), words);
     }
+  }
+  while (mixed != 0u)
+  {
+    int i = findLSB(mixed);
+    mixed &= mixed - 1u;
+    int x = first.x + i;
+    compare(ivec3(x, first.yz), end, slicemapRange(uint(x), 0, Size.x));
   }
 }
 

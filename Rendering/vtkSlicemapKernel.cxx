@@ -20,7 +20,8 @@ namespace
 constexpr std::int64_t WordBytes = 4;
 
 /// As in vtkSlicemapKernel.glsl.
-constexpr glm::ivec2 CellsPerBlock(2, 4);
+constexpr glm::ivec2 CellsPerBlock(4, 2);
+constexpr int WordsPerCell = 4;
 
 std::int64_t GetLimit(GLenum name)
 {
@@ -143,17 +144,18 @@ void vtkSlicemapKernel::Run(
 
 std::uint64_t vtkSlicemapKernel::GetNumberOfInvocations(const glm::ivec3& size) const
 {
-  const auto cellBits = this->Defines.find("CELL_BITS");
-  if (cellBits == this->Defines.end())
+  const auto rows = this->Defines.find("CELL_ROWS");
+  const auto slices = this->Defines.find("CELL_SLICES");
+  if (rows == this->Defines.end() || slices == this->Defines.end())
   {
     return std::uint64_t(size.x) * size.y * size.z;
   }
-  // Up to one cell more where a slab begins within one.
-  const int cell = 1 << std::stoi(cellBits->second);
-  const auto blocks = [&](int length, int cellsPerBlock)
+  // A region may begin and end within a cell.
+  const auto blocks = [](int length, int cell, int cellsPerBlock)
   { return std::uint64_t(length + 2 * cell - 2) / cell / cellsPerBlock + 1; };
-  return blocks(size.y, CellsPerBlock.x) * blocks(size.z, CellsPerBlock.y) * size.x *
-    CellsPerBlock.x * CellsPerBlock.y;
+  return blocks(size.y, std::stoi(rows->second), CellsPerBlock.x) *
+    blocks(size.z, std::stoi(slices->second), CellsPerBlock.y) * CellsPerBlock.x * CellsPerBlock.y *
+    (size.x / WordsPerCell);
 }
 
 void vtkSlicemapKernel::RunCompute(
