@@ -18,6 +18,7 @@
 #include "vtkDepthDensityGLSL.h"
 #include "vtkDepthMeshVertexGLSL.h"
 #include "vtkDepthPlanesGLSL.h"
+#include "vtkDepthRangeGLSL.h"
 #include "vtkDepthRangesGLSL.h"
 #include "vtkDepthShellsGLSL.h"
 #include "vtkDepthVoxelsGLSL.h"
@@ -30,6 +31,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -43,7 +45,8 @@ constexpr unsigned int NearUnit = 0;
 constexpr unsigned int FarUnit = 1;
 constexpr unsigned int VoxelsUnit = 2;
 constexpr unsigned int RangesUnit = 0;
-constexpr unsigned int ColumnsUnit = 0;
+constexpr unsigned int EndsUnit = 0;
+constexpr unsigned int PlanesUnit = 0;
 constexpr unsigned int MeshUnit = 0;
 constexpr int WordsPerQuad = 4;
 constexpr std::int64_t BytesPerQuad = 16;
@@ -64,6 +67,9 @@ constexpr int LargestLength = 65535;
 
 /// Of a cell of vtkDepthVoxels.glsl, in columns or voxels.
 constexpr glm::ivec3 CellSize(ColumnsPerWord, 4, 8);
+
+constexpr char NoMemoryForColumns[] =
+  "OpenGL has no memory left for columns of voxels. Use fewer voxels.";
 
 const char AxisNames[] = { 'X', 'Y', 'Z' };
 
@@ -95,8 +101,8 @@ std::array<int, 3> ToArray(const glm::ivec3& v)
 
 /// An image of integers, one, two or four a pixel, from a fragment shader.
 Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
-  const std::string& source, const Program::Defines& defines, GLenum format, const glm::ivec2& size,
-  const std::function<void(Program&)>& bind)
+  const std::vector<std::string>& sources, const Program::Defines& defines, GLenum format,
+  const glm::ivec2& size, const std::function<void(Program&)>& bind)
 {
   const GLenum components = format == GL_R32UI ? GL_RED_INTEGER
     : format == GL_RG32UI                      ? GL_RG_INTEGER
@@ -105,7 +111,7 @@ Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
   const bool allocated = image.Allocate2D(format, size.x, size.y, components, GL_UNSIGNED_INT);
   if (!allocated)
   {
-    throw std::runtime_error("OpenGL has no memory left for columns of voxels. Use fewer voxels.");
+    throw std::runtime_error(NoMemoryForColumns);
   }
   Framebuffer framebuffer(context);
   framebuffer.Attach(GL_COLOR_ATTACHMENT0, image);
@@ -113,12 +119,23 @@ Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
   vtkVoxelGL::VertexArray vertices(context);
   vertices.Bind();
   Program& program = vtkVoxelGetProgram(context, name, defines,
-    { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } }, { GL_FRAGMENT_SHADER, { source } } });
+    { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } }, { GL_FRAGMENT_SHADER, sources } });
   program.Use();
   bind(program);
   glViewport(0, 0, size.x, size.y);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   return image;
+}
+
+/// See vtkDepthRange.glsl.
+void BindDepths(Program& program, const vtkDepthBuffers::Pair& pair)
+{
+  pair.NearDepth.Bind(NearUnit);
+  pair.FarDepth.Bind(FarUnit);
+  program.Set("NearDepth", int(NearUnit));
+  program.Set("FarDepth", int(FarUnit));
+  program.Set("DepthOfBuffers", static_cast<float>(pair.View.GetViewport().z));
+  program.Set("Length", pair.View.Size.z);
 }
 
 /// Maps the points of a mesh to view coordinates; see vtkRasterMeshFetch.glsl.
@@ -138,19 +155,16 @@ void SetView(Program& program, const glm::dmat4& worldToView)
 }
 }
 
-/// What is known of the columns along an axis.
+/// What vtkDepthVoxels.glsl asks of the columns along an axis.
 struct vtkDepthBuffers::Columns
 {
   int Axis;
-  Texture Ends; ///< of vtkDepthRanges.glsl, or of vtkDepthShells.glsl
-};
-
-/// What vtkDepthVoxels.glsl asks of the columns along an axis.
-struct vtkDepthBuffers::Source
-{
-  Texture Blocks;
+  glm::ivec3 First; ///< column of the target, and its first voxel
+  glm::ivec3 Size;  ///< columns of the target, and voxels of each
+  Texture Ends;
   vtkVoxelGL::Buffer PlanesBuffer;
   Texture Planes;
+  Texture Blocks;
 };
 
 void vtkDepthBuffers::Start(vtkVoxelGL::Context context)
@@ -438,23 +452,14 @@ void vtkDepthBuffers::Intersect(const std::vector<Given>& others)
 
 Texture vtkDepthBuffers::MakeRanges(const Pair& pair) const
 {
-  return MakeImage(this->Context, "vtkDepthRanges", vtkDepthRangesGLSL, {}, GL_R32UI,
-    pair.View.Size,
-    [&](Program& program)
-    {
-      pair.NearDepth.Bind(NearUnit);
-      pair.FarDepth.Bind(FarUnit);
-      program.Set("NearDepth", int(NearUnit));
-      program.Set("FarDepth", int(FarUnit));
-      program.Set("DepthOfBuffers", static_cast<float>(pair.View.GetViewport().z));
-      program.Set("Length", pair.View.Size.z);
-    });
+  return MakeImage(this->Context, "vtkDepthRanges", { vtkDepthRangeGLSL, vtkDepthRangesGLSL }, {},
+    GL_R32UI, pair.View.Size, [&](Program& program) { BindDepths(program, pair); });
 }
 
 Texture vtkDepthBuffers::MakeShells(
   const Pair& pair, const Texture& ranges, Neighbours neighbours) const
 {
-  return MakeImage(this->Context, "vtkDepthShells", vtkDepthShellsGLSL,
+  return MakeImage(this->Context, "vtkDepthShells", { vtkDepthShellsGLSL },
     { { "NEIGHBOURS", std::to_string(static_cast<int>(neighbours)) } }, GL_RG32UI, pair.View.Size,
     [&](Program& program)
     {
@@ -464,45 +469,94 @@ Texture vtkDepthBuffers::MakeShells(
     });
 }
 
-Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, const glm::ivec3& first,
-  const glm::ivec3& size, const glm::ivec2& side) const
+Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, const Program::Defines& defines) const
 {
-  return MakeImage(this->Context, "vtkDepthBlocks", vtkDepthBlocksGLSL, {}, GL_RGBA32UI,
-    (glm::ivec2(size) + side - 1) / side,
+  const bool hasPlanes = columns.Axis != 0;
+  const glm::ivec2 side(vtkColumnAxes(columns.Axis)(CellSize));
+  return MakeImage(this->Context, "vtkDepthBlocks", { vtkDepthBlocksGLSL },
+    hasPlanes ? defines : Program::Defines(), GL_RGBA32UI,
+    (glm::ivec2(columns.Size) + side - 1) / side,
     [&](Program& program)
     {
-      columns.Ends.Bind(ColumnsUnit);
-      program.Set("Ends", int(ColumnsUnit));
-      program.Set("First", ToArray(first));
-      program.Set("Size", ToArray(size));
+      program.Set("Size", ToArray(columns.Size));
       program.Set("Side", std::array<int, 2>{ side.x, side.y });
+      if (hasPlanes)
+      {
+        columns.Planes.Bind(PlanesUnit);
+        program.Set("Planes", int(PlanesUnit));
+        program.Set("Words", CountWords(columns.Size.x));
+      }
+      else
+      {
+        columns.Ends.Bind(EndsUnit);
+        program.Set("Ends", int(EndsUnit));
+        program.Set("First", ToArray(columns.First));
+      }
     });
 }
 
-vtkVoxelGL::Buffer vtkDepthBuffers::MakePlanes(const Columns& columns, const glm::ivec3& first,
-  const glm::ivec3& size, Program::Defines defines) const
+vtkVoxelGL::Buffer vtkDepthBuffers::MakePlanes(
+  const Pair& pair, const Columns& columns, const Program::Defines& defines) const
 {
-  const int words = CountWords(size.x);
-  const std::int64_t groups = std::int64_t(words) * size.y;
-  const std::int64_t quads = groups * std::stoi(defines["PLANES"]);
+  const int words = CountWords(columns.Size.x);
+  const std::int64_t groups = std::int64_t(words) * columns.Size.y;
+  const std::int64_t quads = groups * std::stoi(defines.at("PLANES"));
   GLint texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
   vtkVoxelGL::Buffer planes(this->Context);
   if (quads > texels || !planes.Allocate(static_cast<std::size_t>(quads * BytesPerQuad)))
   {
-    throw std::runtime_error("OpenGL has no memory left for columns of voxels. Use fewer voxels.");
+    throw std::runtime_error(NoMemoryForColumns);
   }
-  const vtkSlicemapQuadKernel kernel("vtkDepthPlanes", vtkDepthPlanesGLSL, std::move(defines));
+  const bool hasShells = static_cast<bool>(columns.Ends);
+  const vtkSlicemapQuadKernel kernel("vtkDepthPlanes",
+    hasShells ? std::string(vtkDepthPlanesGLSL)
+              : std::string(vtkDepthRangeGLSL) + vtkDepthPlanesGLSL,
+    defines);
   kernel.Run(this->Context, planes, groups,
     [&](Program& program)
     {
-      columns.Ends.Bind(ColumnsUnit);
-      program.Set("Ends", int(ColumnsUnit));
-      program.Set("First", ToArray(first));
-      program.Set("Size", ToArray(size));
+      if (hasShells)
+      {
+        columns.Ends.Bind(EndsUnit);
+        program.Set("Ends", int(EndsUnit));
+      }
+      else
+      {
+        BindDepths(program, pair);
+      }
+      program.Set("First", ToArray(columns.First));
+      program.Set("Size", ToArray(columns.Size));
       program.Set("Words", static_cast<unsigned int>(words));
     });
   return planes;
+}
+
+vtkDepthBuffers::Columns vtkDepthBuffers::MakeColumns(const Pair& pair, const glm::ivec3& first,
+  const glm::ivec3& size, std::optional<Neighbours> neighbours,
+  const Program::Defines& defines) const
+{
+  const vtkColumnAxes axes(pair.Axis);
+  Columns columns;
+  columns.Axis = pair.Axis;
+  columns.First = axes(first);
+  columns.Size = axes(size);
+  if (neighbours)
+  {
+    columns.Ends = this->MakeShells(pair, this->MakeRanges(pair), *neighbours);
+  }
+  else if (pair.Axis == 0)
+  {
+    columns.Ends = this->MakeRanges(pair);
+  }
+  if (pair.Axis != 0)
+  {
+    columns.PlanesBuffer = this->MakePlanes(pair, columns, defines);
+    columns.Planes = Texture(this->Context, GL_TEXTURE_BUFFER);
+    columns.Planes.AttachBuffer(GL_RGBA32UI, columns.PlanesBuffer);
+  }
+  columns.Blocks = this->MakeBlocks(columns, defines);
+  return columns;
 }
 
 bool vtkDepthBuffers::HasObliquePairs() const
@@ -513,15 +567,7 @@ bool vtkDepthBuffers::HasObliquePairs() const
 
 void vtkDepthBuffers::FillSolid(vtkSlicemap* target, const glm::ivec3& first) const
 {
-  std::vector<Columns> columns;
-  for (const auto& pair : this->Effective)
-  {
-    if (pair->Axis != Oblique)
-    {
-      columns.push_back({ pair->Axis, this->MakeRanges(*pair) });
-    }
-  }
-  this->Fill(target, first, columns, {});
+  this->Fill(target, first, std::nullopt);
   for (const auto& pair : this->Effective)
   {
     if (pair->Axis == Oblique)
@@ -538,15 +584,11 @@ void vtkDepthBuffers::FillSurface(
   {
     this->FillSolid(target, first);
     this->KeepBoundary(target, neighbours);
-    return;
   }
-  std::vector<Columns> columns;
-  for (const auto& pair : this->Effective)
+  else
   {
-    columns.push_back({ pair->Axis,
-      this->MakeShells(*pair, this->MakeRanges(*pair), neighbours) });
+    this->Fill(target, first, neighbours);
   }
-  this->Fill(target, first, columns, { { "SHELLS", "1" } });
 }
 
 void vtkDepthBuffers::Carve(vtkSlicemap* target, const Pair& pair) const
@@ -678,30 +720,28 @@ std::vector<float> vtkDepthBuffers::ReadDepth(const Pair& pair, Side side) const
   return depths;
 }
 
-void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
-  const std::vector<Columns>& columns, Program::Defines defines) const
+void vtkDepthBuffers::Fill(
+  vtkSlicemap* target, const glm::ivec3& first, std::optional<Neighbours> neighbours) const
 {
   const glm::ivec3 size = target->GetGrid().GetDimensions();
   const int bits = CountBits(std::max(size.y, size.z));
-  defines["BITS"] = std::to_string(bits);
-  defines["PLANES"] = std::to_string(defines.count("SHELLS") ? bits : bits / 2);
-  std::vector<Source> sources;
-  for (const Columns& column : columns)
+  Program::Defines defines{ { "BITS", std::to_string(bits) },
+    { "PLANES", std::to_string(neighbours ? bits : bits / 2) } };
+  if (neighbours)
   {
-    const vtkColumnAxes axes(column.Axis);
-    Source source;
-    source.Blocks = this->MakeBlocks(column, axes(first), axes(size), axes(CellSize));
-    if (column.Axis != 0)
-    {
-      source.PlanesBuffer = this->MakePlanes(column, axes(first), axes(size), defines);
-      source.Planes = Texture(this->Context, GL_TEXTURE_BUFFER);
-      source.Planes.AttachBuffer(GL_RGBA32UI, source.PlanesBuffer);
-    }
-    sources.push_back(std::move(source));
+    defines["SHELLS"] = "1";
   }
-  for (const Columns& column : columns)
+  std::vector<Columns> all;
+  for (const auto& pair : this->Effective)
   {
-    defines[std::string("HAS_") + AxisNames[column.Axis]] = "1";
+    if (pair->Axis != Oblique)
+    {
+      all.push_back(this->MakeColumns(*pair, first, size, neighbours, defines));
+    }
+  }
+  for (const Columns& columns : all)
+  {
+    defines[std::string("HAS_") + AxisNames[columns.Axis]] = "1";
   }
   defines["CELL_ROWS"] = std::to_string(CellSize.y);
   defines["CELL_SLICES"] = std::to_string(CellSize.z);
@@ -713,23 +753,16 @@ void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
       program.Set("Size", ToArray(size));
       program.Set("WordsInUse", CountWords(size.x));
       int unit = 0;
-      const auto set = [&](const Texture& texture, const char* name, int axis)
+      for (const Columns& columns : all)
       {
-        texture.Bind(static_cast<unsigned int>(unit));
-        program.Set((std::string(name) + AxisNames[axis]).c_str(), unit++);
-      };
-      for (std::size_t i = 0; i < columns.size(); ++i)
-      {
-        const int axis = columns[i].Axis;
-        set(sources[i].Blocks, "Blocks", axis);
-        if (axis == 0)
+        const auto set = [&](const Texture& texture, const char* name)
         {
-          set(columns[i].Ends, "Ends", axis);
-        }
-        else
-        {
-          set(sources[i].Planes, "Planes", axis);
-        }
+          texture.Bind(static_cast<unsigned int>(unit));
+          program.Set((std::string(name) + AxisNames[columns.Axis]).c_str(), unit++);
+        };
+        set(columns.Blocks, "Blocks");
+        set(columns.Axis == 0 ? columns.Ends : columns.Planes,
+          columns.Axis == 0 ? "Ends" : "Planes");
       }
     });
 }

@@ -8,12 +8,17 @@
 // BITS    of a number of voxels along the columns, even
 // PLANES  quads of planes, which lie one after the other
 //
-// Ends   those of vtkDepthRanges.glsl, or with SHELLS of vtkDepthShells.glsl, of the whole grid
+// The ranges are those of vtkDepthRange.glsl, which it follows, or with SHELLS:
+//
+// Ends   those of vtkDepthShells.glsl, of the whole grid
+//
 // First  the first column of the slicemap, and its first voxel
 // Size   columns of the slicemap, and voxels of each
 // Words  words of a row of columns
 
+#ifdef SHELLS
 uniform usampler2D Ends;
+#endif
 uniform ivec3 First;
 uniform ivec3 Size;
 uniform uint Words;
@@ -37,7 +42,12 @@ void kernel(uint group, out uvec4 planes[PLANES])
   int count = min(32, Size.x - place.x);
   for (int i = 0; i < count; ++i)
   {
-    uvec2 ends = texelFetch(Ends, First.xy + place + ivec2(i, 0), 0).rg;
+    ivec2 column = First.xy + place + ivec2(i, 0);
+#ifdef SHELLS
+    uvec2 ends = texelFetch(Ends, column, 0).rg;
+#else
+    uvec2 ends = uvec2(rangeOf(column), 0u);
+#endif
     for (int p = 0; p < PLANES_OF_RANGE; ++p)
     {
       planes[p] |= bitsOf(ends.r, p) << uint(i);
