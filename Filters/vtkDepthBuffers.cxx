@@ -5,10 +5,10 @@
 #include "vtkMorphologyPass.h"
 #include "vtkNew.h"
 #include "vtkSMPTools.h"
-#include "vtkSolidPass.h" // for vtkColumnAxes
 #include "vtkSlicemap.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkSlicemapQuadKernel.h"
+#include "vtkSolidPass.h" // for vtkColumnAxes
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
@@ -761,8 +761,8 @@ void vtkDepthBuffers::Fill(
           program.Set((std::string(name) + AxisNames[columns.Axis]).c_str(), unit++);
         };
         set(columns.Blocks, "Blocks");
-        set(columns.Axis == 0 ? columns.Ends : columns.Planes,
-          columns.Axis == 0 ? "Ends" : "Planes");
+        set(
+          columns.Axis == 0 ? columns.Ends : columns.Planes, columns.Axis == 0 ? "Ends" : "Planes");
       }
     });
 }
