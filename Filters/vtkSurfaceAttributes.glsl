@@ -2,7 +2,7 @@
 // are those at the point of the triangle nearest to the voxel's centre: Rauwendaal 2012, section 3.5, within
 // the triangle. All sums are of integers, so that the order of the triangles does not matter.
 //
-// Follows vtkSlicemapLayout.glsl and vtkSurfaceFacet.glsl.
+// Follows vtkSurfaceWords.glsl.
 //
 // COMPONENTS   of a value
 // COMBINATION  AVERAGE, MINIMUM, MAXIMUM, FIND_FIRST (of the triangles by their order), STORE_FIRST
@@ -26,9 +26,6 @@
 
 const float ONE = 8388608.0;
 
-uniform ivec3 GridFirst;
-uniform uint WordsPerRow;
-uniform uint RowsPerSlice;
 uniform usamplerBuffer Quads;
 uniform usamplerBuffer Offsets;
 uniform samplerBuffer Values;
@@ -45,17 +42,17 @@ layout(std430, binding = 1) buffer Triangulation
   uint TrianglesOf[];
 };
 
-uint numberOf(ivec3 voxel)
+uint numberOf(Place place)
 {
-  uvec3 at = uvec3(voxel - GridFirst);
-  uint word = slicemapWord(at, WordsPerRow, RowsPerSlice);
-  uvec4 words = texelFetch(Quads, int(word / 4u));
-  uint number = texelFetch(Offsets, int(word / 4u)).x;
-  for (uint i = 0u; i < word % 4u; ++i)
+  uint quad = place.Word / 4u;
+  uint wordOfQuad = place.Word % 4u;
+  uvec4 words = texelFetch(Quads, int(quad));
+  uint number = texelFetch(Offsets, int(quad)).x;
+  for (uint i = 0u; i < wordOfQuad; ++i)
   {
     number += uint(bitCount(words[i]));
   }
-  return number + uint(bitCount(words[word % 4u] & (slicemapBit(at.x) - 1u)));
+  return number + uint(bitCount(words[wordOfQuad] & (place.Bit - 1u)));
 }
 
 float squareOf(vec3 v)
@@ -131,7 +128,7 @@ void combine(uint number, int component, float value)
 
 void visit(Facet f, ivec3 local)
 {
-  uint number = numberOf(voxelOf(f, local));
+  uint number = numberOf(placeOf(f, local));
 #if COMBINATION == AVERAGE
   atomicAdd(TrianglesOf[number], 1u);
 #elif COMBINATION == FIND_FIRST

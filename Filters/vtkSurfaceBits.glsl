@@ -1,27 +1,44 @@
 // What becomes of the voxels that triangles overlap: their bits are set.
 //
-// Follows vtkSlicemapLayout.glsl and vtkSurfaceFacet.glsl.
+// Follows vtkSurfaceWords.glsl.
 //
 // REMOVE  defined when the bits are cleared instead
+// LOOKS   defined when words are looked at first, through the R32UI buffer texture Present over the same
+//         words: most triangles of a fine mesh find their bits done, and to look is cheaper than to write.
+//         What it shows may be late, since others write meanwhile, but a bit that is done stays so.
 // storage buffer 0 holds the words of the slicemap from slice First.z on
 
-uniform ivec3 GridFirst;
-uniform uint WordsPerRow;
-uniform uint RowsPerSlice;
+#ifdef LOOKS
+uniform usamplerBuffer Present;
+#endif
 
 layout(std430, binding = 0) buffer Slicemap
 {
   uint Words[];
 };
 
+bool isDone(Place place)
+{
+#ifdef LOOKS
+  uint present = texelFetch(Present, int(place.Word)).x;
+#ifdef REMOVE
+  present = ~present;
+#endif
+  return (present & place.Bit) != 0u;
+#else
+  return false;
+#endif
+}
+
 void visit(Facet f, ivec3 local)
 {
-  ivec3 voxel = voxelOf(f, local);
-  uvec3 at = uvec3(voxel.xy - GridFirst.xy, voxel.z - First.z);
-  uint word = slicemapWord(at, WordsPerRow, RowsPerSlice);
+  Place place = placeOf(f, local);
+  if (!isDone(place))
+  {
 #ifdef REMOVE
-  atomicAnd(Words[word], ~slicemapBit(at.x));
+    atomicAnd(Words[place.Word], ~place.Bit);
 #else
-  atomicOr(Words[word], slicemapBit(at.x));
+    atomicOr(Words[place.Word], place.Bit);
 #endif
+  }
 }

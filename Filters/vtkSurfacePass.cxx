@@ -19,6 +19,7 @@
 #include "vtkSurfaceRowsGLSL.h"
 #include "vtkSurfaceVertexGLSL.h"
 #include "vtkSurfaceVoxelsGLSL.h"
+#include "vtkSurfaceWordsGLSL.h"
 #include "vtkVoxelMeshFetchGLSL.h"
 
 #include <algorithm>
@@ -36,6 +37,9 @@ namespace
 {
 constexpr std::int64_t WordBytes = 4;
 constexpr GLuint SlicemapBinding = 0;
+
+// Those before are the mesh's.
+constexpr unsigned int PresentUnit = 5;
 
 // The search for a cutoff.
 constexpr float SmallestCutoffArea = 64.0f;
@@ -200,6 +204,12 @@ bool vtkSurfacePass::Run(
   {
     bits.Defines["REMOVE"] = "1";
   }
+  const auto present =
+    slicesPerSlab == slices ? vtkSlicemapWordTexture(target) : vtkVoxelGL::Texture();
+  if (present)
+  {
+    bits.Defines["LOOKS"] = "1";
+  }
   for (int slice = 0; slice < slices; slice += slicesPerSlab)
   {
     if (!progress(double(slice) / slices))
@@ -207,8 +217,15 @@ bool vtkSurfacePass::Run(
       return false;
     }
     const Slab slab{ target, slice, std::min(slice + slicesPerSlab, slices) };
-    bits.Bind = [&](Program&)
-    { vtkSlicemapBindSlab(target, SlicemapBinding, slab.First, slab.End - slab.First); };
+    bits.Bind = [&](Program& program)
+    {
+      vtkSlicemapBindSlab(target, SlicemapBinding, slab.First, slab.End - slab.First);
+      if (present)
+      {
+        present.Bind(PresentUnit);
+        program.Set("Present", static_cast<int>(PresentUnit));
+      }
+    };
     this->VisitSlab(mesh, settings, bits, slab);
   }
   return progress(1.0);
@@ -232,6 +249,7 @@ void vtkSurfacePass::VisitSlab(
   vtkTriangleDispatch::Job job;
   job.Name = "vtkSurfaceVoxels";
   job.Sources = GetOverlapSources();
+  job.Sources.emplace_back(vtkSurfaceWordsGLSL);
   job.Sources.push_back(visitor.Source);
   job.Sources.emplace_back(vtkSurfaceVoxelsGLSL);
   job.Defines = GetDefines(settings, visitor);
@@ -279,6 +297,7 @@ void vtkSurfacePass::DrawDeferred(const vtkVoxelMesh& mesh, const Settings& sett
   {
     fragment.push_back(std::move(source));
   }
+  fragment.emplace_back(vtkSurfaceWordsGLSL);
   fragment.push_back(visitor.Source);
   fragment.emplace_back(vtkSurfaceFragmentGLSL);
   Program& program = vtkVoxelGetProgram(this->Context, "vtkSurfaceFragment", defines,

@@ -88,8 +88,8 @@ public:
     const Progress& progress);
 
   /// What becomes of each pair of a triangle and a voxel that it overlaps: GLSL with a function
-  /// visit(), see vtkSurfaceFacet.glsl, and what it needs. Storage buffers 2 and 3 and texture
-  /// units 1 to 3 are taken.
+  /// visit(), see vtkSurfaceFacet.glsl, and what it needs; vtkSurfaceWords.glsl is there. Storage
+  /// buffers 2 and 3 and texture units 1 to 3 are taken.
   struct Visitor
   {
     std::string Source;

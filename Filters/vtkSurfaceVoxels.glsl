@@ -13,6 +13,7 @@
 // With CLASSIFY defined in the first stage small triangles wait too, for the stage
 //   REST            defined: an invocation does a small triangle
 // The stages are there because renderers in software run all of a shader, whatever its conditions and returns.
+// So the first one has no branch around what is to be done for every triangle.
 //
 // CutoffArea triangles whose bounds have more columns than this are large; negative: all are
 
@@ -126,25 +127,27 @@ void main()
 {
   uint triangle;
   Facet f;
-  if (!triangleOfInvocation(triangle) || !facetOf(triangle, f))
-  {
-    return;
-  }
-  if (columnsOf(f) > CutoffArea)
+  bool exists = triangleOfInvocation(triangle);
+  bool overlaps = facetOf(triangle, f) && exists;
+  bool isLarge = columnsOf(f) > CutoffArea;
+  if (overlaps && isLarge)
   {
     deferLarge(triangle);
-    return;
   }
-  if (!f.Near)
+  if (overlaps && !isLarge && !f.Near)
   {
     enqueueTriangle(triangle);
-    return;
   }
+  bool isSmall = overlaps && !isLarge && f.Near;
 #ifdef CLASSIFY
-  enqueueRest(triangle);
+  if (isSmall)
+  {
+    enqueueRest(triangle);
+  }
 #else
   NearOverlap overlap;
   setUpOverlap(overlap, f, float(NEAR_MARGIN + Margin));
+  overlap.End = isSmall ? overlap.End : overlap.First;
   visitTriangle(f, overlap);
 #endif
 }

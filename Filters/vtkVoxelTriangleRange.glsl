@@ -9,11 +9,11 @@ layout(local_size_x = 64) in;
 uniform uint FirstTriangle;
 uniform uint NumberOfTriangles;
 
-// False for the invocations at the end that have none.
+// False for the invocations at the end that have none; these get the last triangle.
 bool triangleOfInvocation(out uint triangle)
 {
   uint rowLength = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
   uint index = gl_GlobalInvocationID.y * rowLength + gl_GlobalInvocationID.x;
-  triangle = FirstTriangle + index;
+  triangle = FirstTriangle + min(index, NumberOfTriangles - 1u);
   return index < NumberOfTriangles;
 }

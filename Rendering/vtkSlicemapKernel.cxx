@@ -92,6 +92,19 @@ vtkVoxelGL::Texture vtkSlicemapTexture(vtkSlicemap* slicemap)
   return texture;
 }
 
+vtkVoxelGL::Texture vtkSlicemapWordTexture(vtkSlicemap* slicemap)
+{
+  const vtkVoxelGL::Buffer& buffer = slicemap->GetBuffer();
+  if (static_cast<std::int64_t>(buffer.GetSize()) / WordBytes >
+    GetLimit(GL_MAX_TEXTURE_BUFFER_SIZE))
+  {
+    return {};
+  }
+  vtkVoxelGL::Texture texture(buffer.GetContext(), GL_TEXTURE_BUFFER);
+  texture.AttachBuffer(GL_R32UI, buffer);
+  return texture;
+}
+
 int vtkSlicemapSlicesPerSlab(vtkSlicemap* slicemap)
 {
   const int slices = slicemap->GetGrid().GetDimensions().z;

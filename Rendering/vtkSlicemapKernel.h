@@ -43,8 +43,12 @@ vtkVoxelGL::Program& vtkVoxelGetProgram(const vtkVoxelGL::Context& context, cons
 /// Workgroups make a rectangle when one row of them would be too long.
 void vtkVoxelDispatch(std::uint64_t invocations, unsigned int local = 64);
 
-/// A buffer texture over the words of a slicemap, four words a texel.
+///@{
+/// A buffer texture over the words of a slicemap: four words a texel (RGBA32UI), or one (R32UI),
+/// which is none where the renderer's textures don't have so many texels.
 vtkVoxelGL::Texture vtkSlicemapTexture(vtkSlicemap* slicemap);
+vtkVoxelGL::Texture vtkSlicemapWordTexture(vtkSlicemap* slicemap);
+///@}
 
 ///@{
 /// Slices of the grid that fit into one storage buffer, whose offset may be that of any of its
