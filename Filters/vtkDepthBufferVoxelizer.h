@@ -14,8 +14,11 @@
  * Voxelization Algorithm. Journal of Graphics Tools 4(4), 1999, pp. 5-10; section 2 (solid), 4.1
  * (surface), 4.2 (density).
  *
- * Its cost is that of drawing the scene, and then depends on the number of voxels alone. For
- * several resolutions run it at each, or vtkVoxelDensityNormals with Downsample on the finest.
+ * Its cost is that of drawing the scene, and then grows with the number of pixels, whatever part of
+ * the grid is filled: only the voxels of columns that end within a cell of 32 x 4 x 8 are looked
+ * at, all others are set a word at a time. Densities are a number for each voxel, and oblique views
+ * (see AddView) look at each voxel that is left. For several resolutions run it at each, or
+ * vtkVoxelDensityNormals with Downsample on the finest.
  * Progress is reported and abort honoured between buffers.
  *
  * <b>Limits.</b> What no buffer sees is filled: cavities inside, and hollows that are hidden along

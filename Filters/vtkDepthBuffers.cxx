@@ -8,6 +8,7 @@
 #include "vtkSlicemap.h"
 #include "vtkSlicemapKernel.h"
 #include "vtkSlicemapQuadKernel.h"
+#include "vtkSolidPass.h" // for vtkColumnAxes
 #include "vtkVoxelGrid.h"
 #include "vtkVoxelMesh.h"
 
@@ -16,6 +17,8 @@
 #include "vtkDepthCopyGLSL.h"
 #include "vtkDepthDensityGLSL.h"
 #include "vtkDepthMeshVertexGLSL.h"
+#include "vtkDepthPlanesGLSL.h"
+#include "vtkDepthRangeGLSL.h"
 #include "vtkDepthRangesGLSL.h"
 #include "vtkDepthShellsGLSL.h"
 #include "vtkDepthVoxelsGLSL.h"
@@ -28,6 +31,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -41,9 +45,11 @@ constexpr unsigned int NearUnit = 0;
 constexpr unsigned int FarUnit = 1;
 constexpr unsigned int VoxelsUnit = 2;
 constexpr unsigned int RangesUnit = 0;
-constexpr unsigned int ColumnsUnit = 0;
+constexpr unsigned int EndsUnit = 0;
+constexpr unsigned int PlanesUnit = 0;
 constexpr unsigned int MeshUnit = 0;
 constexpr int WordsPerQuad = 4;
+constexpr std::int64_t BytesPerQuad = 16;
 constexpr int VoxelsPerQuad = 4;
 constexpr int ColumnsPerWord = 32;
 
@@ -59,7 +65,29 @@ constexpr GLuint StencilBits = 0xff;
 /// Ranges of voxels are pairs of so many bits.
 constexpr int LargestLength = 65535;
 
+/// Of a cell of vtkDepthVoxels.glsl, in columns or voxels.
+constexpr glm::ivec3 CellSize(ColumnsPerWord, 4, 8);
+
+constexpr char NoMemoryForColumns[] =
+  "OpenGL has no memory left for columns of voxels. Use fewer voxels.";
+
 const char AxisNames[] = { 'X', 'Y', 'Z' };
+
+int CountWords(int columns)
+{
+  return (columns + ColumnsPerWord - 1) / ColumnsPerWord;
+}
+
+/// The bits of vtkDepthPlanes.glsl, an even number of them, for voxels from 0 to `length`.
+int CountBits(int length)
+{
+  int bits = 4;
+  while (length >> bits != 0)
+  {
+    bits += 2;
+  }
+  return bits;
+}
 
 std::array<float, 3> ToArray(const glm::vec3& v)
 {
@@ -73,8 +101,8 @@ std::array<int, 3> ToArray(const glm::ivec3& v)
 
 /// An image of integers, one, two or four a pixel, from a fragment shader.
 Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
-  const std::string& source, const Program::Defines& defines, GLenum format, const glm::ivec2& size,
-  const std::function<void(Program&)>& bind)
+  const std::vector<std::string>& sources, const Program::Defines& defines, GLenum format,
+  const glm::ivec2& size, const std::function<void(Program&)>& bind)
 {
   const GLenum components = format == GL_R32UI ? GL_RED_INTEGER
     : format == GL_RG32UI                      ? GL_RG_INTEGER
@@ -83,7 +111,7 @@ Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
   const bool allocated = image.Allocate2D(format, size.x, size.y, components, GL_UNSIGNED_INT);
   if (!allocated)
   {
-    throw std::runtime_error("OpenGL has no memory left for columns of voxels. Use fewer voxels.");
+    throw std::runtime_error(NoMemoryForColumns);
   }
   Framebuffer framebuffer(context);
   framebuffer.Attach(GL_COLOR_ATTACHMENT0, image);
@@ -91,12 +119,23 @@ Texture MakeImage(const vtkVoxelGL::Context& context, const std::string& name,
   vtkVoxelGL::VertexArray vertices(context);
   vertices.Bind();
   Program& program = vtkVoxelGetProgram(context, name, defines,
-    { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } }, { GL_FRAGMENT_SHADER, { source } } });
+    { { GL_VERTEX_SHADER, { vtkVoxelFullScreenGLSL } }, { GL_FRAGMENT_SHADER, sources } });
   program.Use();
   bind(program);
   glViewport(0, 0, size.x, size.y);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   return image;
+}
+
+/// See vtkDepthRange.glsl.
+void BindDepths(Program& program, const vtkDepthBuffers::Pair& pair)
+{
+  pair.NearDepth.Bind(NearUnit);
+  pair.FarDepth.Bind(FarUnit);
+  program.Set("NearDepth", int(NearUnit));
+  program.Set("FarDepth", int(FarUnit));
+  program.Set("DepthOfBuffers", static_cast<float>(pair.View.GetViewport().z));
+  program.Set("Length", pair.View.Size.z);
 }
 
 /// Maps the points of a mesh to view coordinates; see vtkRasterMeshFetch.glsl.
@@ -116,12 +155,16 @@ void SetView(Program& program, const glm::dmat4& worldToView)
 }
 }
 
-/// What is known of the columns along an axis.
+/// What vtkDepthVoxels.glsl asks of the columns along an axis.
 struct vtkDepthBuffers::Columns
 {
   int Axis;
-  int Rows;     ///< of columns
-  Texture Ends; ///< of vtkDepthRanges.glsl, or of vtkDepthShells.glsl
+  glm::ivec3 First; ///< column of the target, and its first voxel
+  glm::ivec3 Size;  ///< columns of the target, and voxels of each
+  Texture Ends;
+  vtkVoxelGL::Buffer PlanesBuffer;
+  Texture Planes;
+  Texture Blocks;
 };
 
 void vtkDepthBuffers::Start(vtkVoxelGL::Context context)
@@ -409,23 +452,14 @@ void vtkDepthBuffers::Intersect(const std::vector<Given>& others)
 
 Texture vtkDepthBuffers::MakeRanges(const Pair& pair) const
 {
-  return MakeImage(this->Context, "vtkDepthRanges", vtkDepthRangesGLSL, {}, GL_R32UI,
-    pair.View.Size,
-    [&](Program& program)
-    {
-      pair.NearDepth.Bind(NearUnit);
-      pair.FarDepth.Bind(FarUnit);
-      program.Set("NearDepth", int(NearUnit));
-      program.Set("FarDepth", int(FarUnit));
-      program.Set("DepthOfBuffers", static_cast<float>(pair.View.GetViewport().z));
-      program.Set("Length", pair.View.Size.z);
-    });
+  return MakeImage(this->Context, "vtkDepthRanges", { vtkDepthRangeGLSL, vtkDepthRangesGLSL }, {},
+    GL_R32UI, pair.View.Size, [&](Program& program) { BindDepths(program, pair); });
 }
 
 Texture vtkDepthBuffers::MakeShells(
   const Pair& pair, const Texture& ranges, Neighbours neighbours) const
 {
-  return MakeImage(this->Context, "vtkDepthShells", vtkDepthShellsGLSL,
+  return MakeImage(this->Context, "vtkDepthShells", { vtkDepthShellsGLSL },
     { { "NEIGHBOURS", std::to_string(static_cast<int>(neighbours)) } }, GL_RG32UI, pair.View.Size,
     [&](Program& program)
     {
@@ -435,17 +469,94 @@ Texture vtkDepthBuffers::MakeShells(
     });
 }
 
-Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, int first, int count) const
+Texture vtkDepthBuffers::MakeBlocks(const Columns& columns, const Program::Defines& defines) const
 {
-  return MakeImage(this->Context, "vtkDepthBlocks", vtkDepthBlocksGLSL, {}, GL_RGBA32UI,
-    { (count + ColumnsPerWord - 1) / ColumnsPerWord, columns.Rows },
+  const bool hasPlanes = columns.Axis != 0;
+  const glm::ivec2 side(vtkColumnAxes(columns.Axis)(CellSize));
+  return MakeImage(this->Context, "vtkDepthBlocks", { vtkDepthBlocksGLSL },
+    hasPlanes ? defines : Program::Defines(), GL_RGBA32UI,
+    (glm::ivec2(columns.Size) + side - 1) / side,
     [&](Program& program)
     {
-      columns.Ends.Bind(ColumnsUnit);
-      program.Set("Columns", int(ColumnsUnit));
-      program.Set("First", first);
-      program.Set("Count", count);
+      program.Set("Size", ToArray(columns.Size));
+      program.Set("Side", std::array<int, 2>{ side.x, side.y });
+      if (hasPlanes)
+      {
+        columns.Planes.Bind(PlanesUnit);
+        program.Set("Planes", int(PlanesUnit));
+        program.Set("Words", CountWords(columns.Size.x));
+      }
+      else
+      {
+        columns.Ends.Bind(EndsUnit);
+        program.Set("Ends", int(EndsUnit));
+        program.Set("First", ToArray(columns.First));
+      }
     });
+}
+
+vtkVoxelGL::Buffer vtkDepthBuffers::MakePlanes(
+  const Pair& pair, const Columns& columns, const Program::Defines& defines) const
+{
+  const int words = CountWords(columns.Size.x);
+  const std::int64_t groups = std::int64_t(words) * columns.Size.y;
+  const std::int64_t quads = groups * std::stoi(defines.at("PLANES"));
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  vtkVoxelGL::Buffer planes(this->Context);
+  if (quads > texels || !planes.Allocate(static_cast<std::size_t>(quads * BytesPerQuad)))
+  {
+    throw std::runtime_error(NoMemoryForColumns);
+  }
+  const bool hasShells = static_cast<bool>(columns.Ends);
+  const vtkSlicemapQuadKernel kernel("vtkDepthPlanes",
+    hasShells ? std::string(vtkDepthPlanesGLSL)
+              : std::string(vtkDepthRangeGLSL) + vtkDepthPlanesGLSL,
+    defines);
+  kernel.Run(this->Context, planes, groups,
+    [&](Program& program)
+    {
+      if (hasShells)
+      {
+        columns.Ends.Bind(EndsUnit);
+        program.Set("Ends", int(EndsUnit));
+      }
+      else
+      {
+        BindDepths(program, pair);
+      }
+      program.Set("First", ToArray(columns.First));
+      program.Set("Size", ToArray(columns.Size));
+      program.Set("Words", static_cast<unsigned int>(words));
+    });
+  return planes;
+}
+
+vtkDepthBuffers::Columns vtkDepthBuffers::MakeColumns(const Pair& pair, const glm::ivec3& first,
+  const glm::ivec3& size, std::optional<Neighbours> neighbours,
+  const Program::Defines& defines) const
+{
+  const vtkColumnAxes axes(pair.Axis);
+  Columns columns;
+  columns.Axis = pair.Axis;
+  columns.First = axes(first);
+  columns.Size = axes(size);
+  if (neighbours)
+  {
+    columns.Ends = this->MakeShells(pair, this->MakeRanges(pair), *neighbours);
+  }
+  else if (pair.Axis == 0)
+  {
+    columns.Ends = this->MakeRanges(pair);
+  }
+  if (pair.Axis != 0)
+  {
+    columns.PlanesBuffer = this->MakePlanes(pair, columns, defines);
+    columns.Planes = Texture(this->Context, GL_TEXTURE_BUFFER);
+    columns.Planes.AttachBuffer(GL_RGBA32UI, columns.PlanesBuffer);
+  }
+  columns.Blocks = this->MakeBlocks(columns, defines);
+  return columns;
 }
 
 bool vtkDepthBuffers::HasObliquePairs() const
@@ -456,15 +567,7 @@ bool vtkDepthBuffers::HasObliquePairs() const
 
 void vtkDepthBuffers::FillSolid(vtkSlicemap* target, const glm::ivec3& first) const
 {
-  std::vector<Columns> columns;
-  for (const auto& pair : this->Effective)
-  {
-    if (pair->Axis != Oblique)
-    {
-      columns.push_back({ pair->Axis, pair->View.Size.y, this->MakeRanges(*pair) });
-    }
-  }
-  this->Fill(target, first, columns, {});
+  this->Fill(target, first, std::nullopt);
   for (const auto& pair : this->Effective)
   {
     if (pair->Axis == Oblique)
@@ -481,15 +584,11 @@ void vtkDepthBuffers::FillSurface(
   {
     this->FillSolid(target, first);
     this->KeepBoundary(target, neighbours);
-    return;
   }
-  std::vector<Columns> columns;
-  for (const auto& pair : this->Effective)
+  else
   {
-    columns.push_back({ pair->Axis, pair->View.Size.y,
-      this->MakeShells(*pair, this->MakeRanges(*pair), neighbours) });
+    this->Fill(target, first, neighbours);
   }
-  this->Fill(target, first, columns, { { "SHELLS", "1" } });
 }
 
 void vtkDepthBuffers::Carve(vtkSlicemap* target, const Pair& pair) const
@@ -621,39 +720,49 @@ std::vector<float> vtkDepthBuffers::ReadDepth(const Pair& pair, Side side) const
   return depths;
 }
 
-void vtkDepthBuffers::Fill(vtkSlicemap* target, const glm::ivec3& first,
-  const std::vector<Columns>& columns, Program::Defines defines) const
+void vtkDepthBuffers::Fill(
+  vtkSlicemap* target, const glm::ivec3& first, std::optional<Neighbours> neighbours) const
 {
   const glm::ivec3 size = target->GetGrid().GetDimensions();
-  std::vector<Texture> blocks;
-  std::transform(columns.begin(), columns.end(), std::back_inserter(blocks),
-    [&](const Columns& c)
-    { return c.Axis == 0 ? Texture() : this->MakeBlocks(c, first.x, size.x); });
-  for (const Columns& column : columns)
+  const int bits = CountBits(std::max(size.y, size.z));
+  Program::Defines defines{ { "BITS", std::to_string(bits) },
+    { "PLANES", std::to_string(neighbours ? bits : bits / 2) } };
+  if (neighbours)
   {
-    defines[std::string("HAS_") + AxisNames[column.Axis]] = "1";
+    defines["SHELLS"] = "1";
   }
-  const vtkSlicemapQuadKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
+  std::vector<Columns> all;
+  for (const auto& pair : this->Effective)
+  {
+    if (pair->Axis != Oblique)
+    {
+      all.push_back(this->MakeColumns(*pair, first, size, neighbours, defines));
+    }
+  }
+  for (const Columns& columns : all)
+  {
+    defines[std::string("HAS_") + AxisNames[columns.Axis]] = "1";
+  }
+  defines["CELL_ROWS"] = std::to_string(CellSize.y);
+  defines["CELL_SLICES"] = std::to_string(CellSize.z);
+  const vtkSlicemapKernel kernel("vtkDepthVoxels", vtkDepthVoxelsGLSL, std::move(defines));
   kernel.Run(this->Context, target,
     [&](Program& program)
     {
       program.Set("First", ToArray(first));
       program.Set("Size", ToArray(size));
-      program.Set(
-        "QuadsPerRow", static_cast<unsigned int>(target->GetWordsPerRow() / WordsPerQuad));
+      program.Set("WordsInUse", CountWords(size.x));
       int unit = 0;
-      const auto set = [&](const Texture& texture, const std::string& name)
+      for (const Columns& columns : all)
       {
-        texture.Bind(static_cast<unsigned int>(unit));
-        program.Set(name.c_str(), unit++);
-      };
-      for (std::size_t i = 0; i < columns.size(); ++i)
-      {
-        set(columns[i].Ends, std::string("Columns") + AxisNames[columns[i].Axis]);
-        if (blocks[i])
+        const auto set = [&](const Texture& texture, const char* name)
         {
-          set(blocks[i], std::string("Blocks") + AxisNames[columns[i].Axis]);
-        }
+          texture.Bind(static_cast<unsigned int>(unit));
+          program.Set((std::string(name) + AxisNames[columns.Axis]).c_str(), unit++);
+        };
+        set(columns.Blocks, "Blocks");
+        set(
+          columns.Axis == 0 ? columns.Ends : columns.Planes, columns.Axis == 0 ? "Ends" : "Planes");
       }
     });
 }

@@ -18,6 +18,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -150,12 +151,17 @@ private:
   vtkVoxelGL::Texture MakeRanges(const Pair& pair) const;
   vtkVoxelGL::Texture MakeShells(
     const Pair& pair, const vtkVoxelGL::Texture& ranges, Neighbours neighbours) const;
-  vtkVoxelGL::Texture MakeBlocks(const Columns& columns, int first, int count) const;
+  vtkVoxelGL::Buffer MakePlanes(
+    const Pair& pair, const Columns& columns, const vtkVoxelGL::Program::Defines& defines) const;
+  vtkVoxelGL::Texture MakeBlocks(
+    const Columns& columns, const vtkVoxelGL::Program::Defines& defines) const;
+  Columns MakeColumns(const Pair& pair, const glm::ivec3& first, const glm::ivec3& size,
+    std::optional<Neighbours> neighbours, const vtkVoxelGL::Program::Defines& defines) const;
   bool HasObliquePairs() const;
   void Carve(vtkSlicemap* target, const Pair& pair) const;
   void KeepBoundary(vtkSlicemap* target, Neighbours neighbours) const;
-  void Fill(vtkSlicemap* target, const glm::ivec3& first, const std::vector<Columns>& columns,
-    vtkVoxelGL::Program::Defines defines) const;
+  void Fill(
+    vtkSlicemap* target, const glm::ivec3& first, std::optional<Neighbours> neighbours) const;
 
   vtkVoxelGL::Context Context;
   Pairs Known;     // all since Start

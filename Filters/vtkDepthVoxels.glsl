@@ -1,116 +1,273 @@
-// Kernel of vtkDepthBuffers: the voxels that lie between all pairs of depth buffers. Where all columns
-// of a word agree, it is set as a whole; the columns are looked at one by one elsewhere, near the
-// surface.
+// Kernel of vtkDepthBuffers: the voxels that lie between all pairs of depth buffers. A cell is set as
+// a whole where all of its columns agree; elsewhere, near the surface, 32 columns are compared at
+// once, by the planes of their bits.
 //
-// HAS_X, HAS_Y, HAS_Z  defined: there is a pair along that axis
-// SHELLS               defined: only the voxels that a pair sees on the surface
+// HAS_X, HAS_Y, HAS_Z     defined: there is a pair along that axis
+// SHELLS                  defined: only the voxels that a pair sees on the surface
+// BITS, PLANES            those of vtkDepthPlanes.glsl
+// CELL_ROWS, CELL_SLICES  of a cell, which is one word wide, powers of two of up to 1 << LOW_BITS
 //
-// ColumnsX, ColumnsY, ColumnsZ  those of vtkDepthRanges.glsl, or with SHELLS of vtkDepthShells.glsl, of
-//                               the whole grid
-// BlocksY, BlocksZ              those of vtkDepthBlocks.glsl, of the columns of the slicemap
-// First                         the first voxel of the slicemap, counted from that of the whole grid
-// Size                          voxels of the slicemap
-// QuadsPerRow                   quads of a row of it
+// EndsX             those of vtkDepthRanges.glsl, or with SHELLS of vtkDepthShells.glsl, of the whole
+//                   grid
+// PlanesY, PlanesZ  those of vtkDepthPlanes.glsl
+// Blocks...         those of vtkDepthBlocks.glsl, of the columns of a cell
+// First             the first voxel of the slicemap, counted from that of the whole grid
+// Size              voxels of the slicemap
+// WordsInUse        words of a row that hold some of them
 
 uniform ivec3 First;
 uniform ivec3 Size;
-uniform uint QuadsPerRow;
+uniform int WordsInUse;
 
 #ifdef HAS_X
-uniform usampler2D ColumnsX;
+uniform usampler2D EndsX;
+uniform usampler2D BlocksX;
 #endif
 #ifdef HAS_Y
-uniform usampler2D ColumnsY;
+uniform usamplerBuffer PlanesY;
 uniform usampler2D BlocksY;
 #endif
 #ifdef HAS_Z
-uniform usampler2D ColumnsZ;
+uniform usamplerBuffer PlanesZ;
 uniform usampler2D BlocksZ;
 #endif
 
-// What is known of a word: the voxels that are inside, if all columns agree on that, and those on the
-// surface.
-struct Word
+const int LOW_BITS = 3;
+
+// Voxels inside, and with SHELLS those that are not on the surface; the ends of both ranges.
+#ifdef SHELLS
+#define VOXELS uvec2
+#define ENDS uvec4
+#else
+#define VOXELS uint
+#define ENDS uvec2
+#endif
+
+// What all columns of a cell agree on, if they do.
+struct Cell
 {
-  uint Inside;
-  uint Seen;
-  bool IsSure;
+  bool IsInside;
+  bool IsOutside;
+  bool IsInner;
+  bool IsOuter;
 };
 
-#if defined(HAS_Y) || defined(HAS_Z)
-void ask(inout Word word, uvec4 block, int depth)
+void ask(inout Cell cell, uvec4 block, int first, int end)
 {
-  uvec4 smallest = block & 0xffffu;
-  uvec4 largest = block >> 16;
-  uint d = uint(depth);
-  word.Inside = d < smallest.x || d >= largest.y ? 0u : word.Inside;
-  word.IsSure = word.IsSure && d >= largest.x && d < smallest.y;
-#ifdef SHELLS
-  bool isSeenByAll = d < smallest.z || d >= largest.w;
-  bool isSeenByNone = d >= largest.z && d < smallest.w;
-  word.Seen = isSeenByAll ? FULL_WORD : word.Seen;
-  word.IsSure = word.IsSure && (isSeenByAll || isSeenByNone);
-#endif
+  ivec4 smallest = ivec4(block & 0xffffu);
+  ivec4 largest = ivec4(block >> 16);
+  cell.IsInside = cell.IsInside && first >= largest.x && end <= smallest.y;
+  cell.IsOutside = cell.IsOutside || end <= smallest.x || first >= largest.y;
+  cell.IsInner = cell.IsInner && first >= largest.z && end <= smallest.w;
+  cell.IsOuter = cell.IsOuter || end <= smallest.z || first >= largest.w;
 }
 
-void askOne(inout Word word, uvec2 column, int depth, uint bit)
+// Whether voxels differ in the cell of a word; if not, the word.
+bool isMixed(ivec3 word, out uint bits)
 {
-  uint d = uint(depth);
-  bool isInside = d >= (column.r & 0xffffu) && d < column.r >> 16;
-  word.Inside &= isInside ? FULL_WORD : ~bit;
-#ifdef SHELLS
-  bool isSeen = d < (column.g & 0xffffu) || d >= column.g >> 16;
-  word.Seen |= isSeen ? bit : 0u;
+  ivec3 cellSize = ivec3(32, CELL_ROWS, CELL_SLICES);
+  ivec3 place = ivec3(word.x, word.y / CELL_ROWS, word.z / CELL_SLICES);
+  ivec3 first = place * cellSize;
+  ivec3 end = min(first + cellSize, Size);
+  Cell cell = Cell(true, word.x >= WordsInUse, true, false);
+#ifdef HAS_X
+  ask(cell, texelFetch(BlocksX, place.yz, 0), first.x, end.x);
 #endif
-}
-#endif
-
-// A word of the row through voxel `row` of the whole grid, whose first bit is at `place` of the slicemap.
-uint wordOf(ivec3 row, int place, uvec2 columnX)
-{
-  int x = First.x + place;
-  int begin = clamp(int(columnX.r & 0xffffu) - x, 0, 32);
-  int end = clamp(min(int(columnX.r >> 16) - x, Size.x - place), 0, 32);
-  Word word = Word(slicemapRange(0u, begin, end), FULL_WORD, true);
-#ifdef SHELLS
-  word.Seen = ~slicemapRange(0u, int(columnX.g & 0xffffu) - x, int(columnX.g >> 16) - x);
-#endif
-#if defined(HAS_Y) || defined(HAS_Z)
-  int block = min(place, Size.x - 1) / 32;
+  place.x = min(place.x, WordsInUse - 1);
 #ifdef HAS_Y
-  ask(word, texelFetch(BlocksY, ivec2(block, row.z), 0), row.y);
+  ask(cell, texelFetch(BlocksY, place.xz, 0), first.y, end.y);
 #endif
 #ifdef HAS_Z
-  ask(word, texelFetch(BlocksZ, ivec2(block, row.y), 0), row.z);
+  ask(cell, texelFetch(BlocksZ, place.xy, 0), first.z, end.z);
 #endif
-  end = word.IsSure || word.Inside == 0u ? 0 : end;
-  for (int i = begin; i < end; ++i)
+  bool isEmpty = cell.IsOutside;
+  bool isFull = cell.IsInside;
+#ifdef SHELLS
+  isEmpty = isEmpty || cell.IsInner;
+  isFull = isFull && cell.IsOuter;
+#endif
+  bits = isEmpty ? 0u : slicemapRange(uint(word.x), 0, Size.x);
+  return !isEmpty && !isFull;
+}
+
+#ifdef HAS_X
+uint wordOfRange(uint range, int word)
+{
+  return slicemapRange(uint(word), int(range & 0xffffu) - First.x, int(range >> 16) - First.x);
+}
+
+VOXELS alongX(ivec3 word)
+{
+  uvec2 ends = texelFetch(EndsX, First.yz + word.yz, 0).rg;
+#ifdef SHELLS
+  return uvec2(wordOfRange(ends.r, word.x), wordOfRange(ends.g, word.x));
+#else
+  return wordOfRange(ends.r, word.x);
+#endif
+}
+#endif
+
+#if defined(HAS_Y) || defined(HAS_Z)
+// The ends of 32 columns, compared with the voxels that share all bits but the lowest LOW_BITS.
+struct Columns
+{
+  ENDS Beyond; // the end is beyond all of these voxels
+  ENDS Within; // it is one of them, by its lowest bits:
+  ENDS Low[LOW_BITS];
+};
+
+uint planeOf(uvec4 planes[PLANES], int plane)
+{
+  return planes[plane / 4][plane % 4];
+}
+
+ENDS endsOf(uvec4 planes[PLANES], int bit)
+{
+#ifdef SHELLS
+  return uvec4(planeOf(planes, bit), planeOf(planes, bit + BITS), planeOf(planes, bit + 2 * BITS),
+    planeOf(planes, bit + 3 * BITS));
+#else
+  return uvec2(planeOf(planes, bit), planeOf(planes, bit + BITS));
+#endif
+}
+
+Columns columnsAt(usamplerBuffer source, ivec2 word, int voxel)
+{
+  uvec4 planes[PLANES];
+  for (int p = 0; p < PLANES; ++p)
   {
-    uint bit = 1u << uint(i);
-#ifdef HAS_Y
-    askOne(word, texelFetch(ColumnsY, ivec2(x + i, row.z), 0).rg, row.y, bit);
+    planes[p] = texelFetch(source, (word.y * WordsInUse + word.x) * PLANES + p);
+  }
+  Columns columns;
+  columns.Beyond = ENDS(0u);
+  columns.Within = ENDS(FULL_WORD);
+  for (int bit = BITS - 1; bit >= LOW_BITS; --bit)
+  {
+    ENDS ends = endsOf(planes, bit);
+    uint mask = uint(-((voxel >> bit) & 1));
+    columns.Beyond |= columns.Within & ends & ~mask;
+    columns.Within &= ~(ends ^ mask);
+  }
+  for (int bit = 0; bit < LOW_BITS; ++bit)
+  {
+    columns.Low[bit] = endsOf(planes, bit);
+  }
+  return columns;
+}
+
+// The columns that have one of these voxels in their range.
+VOXELS inRange(Columns columns, int voxel)
+{
+  ENDS beyond = ENDS(0u);
+  for (int bit = 0; bit < LOW_BITS; ++bit)
+  {
+    uint mask = uint(-((voxel >> bit) & 1));
+    beyond = (columns.Low[bit] & (beyond | ~mask)) | (beyond & ~mask);
+  }
+  beyond = columns.Beyond | (columns.Within & beyond);
+#ifdef SHELLS
+  return beyond.yw & ~beyond.xz;
+#else
+  return beyond.y & ~beyond.x;
 #endif
+}
+#endif
+
+uint wordOf(VOXELS voxels)
+{
+#ifdef SHELLS
+  return voxels.x & ~voxels.y;
+#else
+  return voxels;
+#endif
+}
+
+#ifdef COMPUTE
+
+// The words of a cell whose voxels differ.
+void compare(ivec3 first, ivec3 end, uint bits)
+{
 #ifdef HAS_Z
-    askOne(word, texelFetch(ColumnsZ, ivec2(x + i, row.y), 0).rg, row.z, bit);
-#endif
+  Columns rows[CELL_ROWS];
+  for (int i = 0; i < CELL_ROWS; ++i)
+  {
+    rows[i] = columnsAt(PlanesZ, ivec2(first.x, min(first.y + i, Size.y - 1)), first.z);
   }
 #endif
-  return word.Inside & word.Seen;
+  for (int z = first.z; z < end.z; ++z)
+  {
+#ifdef HAS_Y
+    Columns slice = columnsAt(PlanesY, ivec2(first.x, z), first.y);
+#endif
+    for (int i = 0; i < CELL_ROWS; ++i)
+    {
+      ivec3 word = ivec3(first.x, min(first.y + i, Size.y - 1), z);
+      VOXELS voxels = VOXELS(bits);
+#ifdef HAS_X
+      voxels &= alongX(word);
+#endif
+#ifdef HAS_Y
+      voxels &= inRange(slice, word.y);
+#endif
+#ifdef HAS_Z
+      voxels &= inRange(rows[i], z);
+#endif
+      put(uvec3(word), wordOf(voxels));
+    }
+  }
 }
 
-uvec4 kernel(uint quad)
+void cell(uvec3 quad)
 {
-  uint index = quad / QuadsPerRow;
-  int place = int(quad % QuadsPerRow) * 128;
-  ivec3 row = First + ivec3(0, int(index % uint(Size.y)), int(index / uint(Size.y)));
-  uvec2 columnX = uvec2(0xffff0000u);
-#ifdef HAS_X
-  columnX = texelFetch(ColumnsX, row.yz, 0).rg;
-#endif
-  uvec4 bits;
-  for (int i = 0; i < 4; ++i)
+  ivec3 first = ivec3(quad);
+  ivec3 end = min(first + ivec3(4, CELL_ROWS, CELL_SLICES), ivec3(WordsInUse, Size.yz));
+  uvec4 words = uvec4(0u);
+  uint mixed = 0u;
+  for (int x = first.x; x < end.x; ++x)
   {
-    bits[i] = wordOf(row, place + 32 * i, columnX);
+    uint word;
+    uint bit = 1u << uint(x - first.x);
+    mixed |= isMixed(ivec3(x, first.yz), word) ? bit : 0u;
+    words |= word * uvec4(equal(uvec4(bit), uvec4(1u, 2u, 4u, 8u)));
+  }
+  for (int z = first.z; z < end.z; ++z)
+  {
+    for (int y = first.y; y < end.y; ++y)
+    {
+      putQuad(uvec3(quad.x, y, z), words);
+    }
+  }
+  while (mixed != 0u)
+  {
+    int i = findLSB(mixed);
+    mixed &= mixed - 1u;
+    int x = first.x + i;
+    compare(ivec3(x, first.yz), end, slicemapRange(uint(x), 0, Size.x));
+  }
+}
+
+#else
+
+uint kernel(uvec3 word)
+{
+  ivec3 place = ivec3(word);
+  uint bits;
+  int count = isMixed(place, bits) ? 1 : 0;
+  for (int once = 0; once < count; ++once)
+  {
+    VOXELS voxels = VOXELS(bits);
+#ifdef HAS_X
+    voxels &= alongX(place);
+#endif
+#ifdef HAS_Y
+    voxels &= inRange(columnsAt(PlanesY, place.xz, place.y), place.y);
+#endif
+#ifdef HAS_Z
+    voxels &= inRange(columnsAt(PlanesZ, place.xy, place.z), place.z);
+#endif
+    bits = wordOf(voxels);
   }
   return bits;
 }
+
+#endif

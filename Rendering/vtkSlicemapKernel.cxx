@@ -19,6 +19,10 @@ namespace
 {
 constexpr std::int64_t WordBytes = 4;
 
+/// As in vtkSlicemapKernel.glsl.
+constexpr glm::ivec2 CellsPerBlock(4, 2);
+constexpr int WordsPerCell = 4;
+
 std::int64_t GetLimit(GLenum name)
 {
   GLint64 limit = 0;
@@ -151,6 +155,22 @@ void vtkSlicemapKernel::Run(
   }
 }
 
+std::uint64_t vtkSlicemapKernel::GetNumberOfInvocations(const glm::ivec3& size) const
+{
+  const auto rows = this->Defines.find("CELL_ROWS");
+  const auto slices = this->Defines.find("CELL_SLICES");
+  if (rows == this->Defines.end() || slices == this->Defines.end())
+  {
+    return std::uint64_t(size.x) * size.y * size.z;
+  }
+  // A region may begin and end within a cell.
+  const auto blocks = [](int length, int cell, int cellsPerBlock)
+  { return std::uint64_t(length + 2 * cell - 2) / cell / cellsPerBlock + 1; };
+  return blocks(size.y, std::stoi(rows->second), CellsPerBlock.x) *
+    blocks(size.z, std::stoi(slices->second), CellsPerBlock.y) * CellsPerBlock.x * CellsPerBlock.y *
+    (size.x / WordsPerCell);
+}
+
 void vtkSlicemapKernel::RunCompute(
   const Context& context, vtkSlicemap* target, const Region& region, const Bind& bind) const
 {
@@ -180,7 +200,7 @@ void vtkSlicemapKernel::RunCompute(
     program.Set("BaseWord", static_cast<unsigned int>((start - aligned) / WordBytes));
     const glm::ivec3 size = region.End - region.First;
     SetRegion(program, { region.First.x, region.First.y, z }, { size.x, size.y, slices });
-    vtkVoxelDispatch(std::uint64_t(size.x) * size.y * slices);
+    vtkVoxelDispatch(this->GetNumberOfInvocations({ size.x, size.y, slices }));
   }
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }

@@ -8,7 +8,9 @@
  * slicemaps on the same grid by `uint sourceWord(usamplerBuffer source, uvec3 word)`, and the bit
  * layout is that of vtkSlicemapLayout.glsl. Written once, it runs as a compute shader where the
  * context has them, else as a fragment shader whose result is copied from the render target on the
- * GPU.
+ * GPU. With the defines CELL_ROWS and CELL_SLICES, the compute shader is a function
+ * `void cell(uvec3 first)` instead, which puts the words of a cell, so that they can share what
+ * they read; see vtkSlicemapKernel.glsl.
  */
 
 #ifndef vtkSlicemapKernel_h
@@ -83,6 +85,7 @@ public:
     const Bind& bind) const;
 
 private:
+  std::uint64_t GetNumberOfInvocations(const glm::ivec3& size) const;
   void RunCompute(
     const vtkVoxelGL::Context&, vtkSlicemap* target, const Region&, const Bind& bind) const;
   void RunFragment(

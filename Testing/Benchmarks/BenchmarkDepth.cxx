@@ -7,11 +7,15 @@
 //   OBJECT/Again/SIZE   solid, of buffers that are there already
 //   OBJECT/Prop/SIZE    solid, of an actor
 //   OBJECT/Parity/SIZE  vtkSlicemapSolidVoxelizer, for comparison
+//   OBJECT/Bits/SIZE, OBJECT/SurfaceBits/SIZE, OBJECT/ParityBits/SIZE
+//                       solid, surface and parity that stay on the GPU, one bit a voxel
 //   Sphere_TRIANGLES/METHOD/256   one shape from few to many triangles, by Solid, Auto or Parity
 //   Shells_COUNT/METHOD/256       so many spheres inside each other, with equally many triangles
 //
 // The counter "voxels" is the number of voxels that are set, "buffers" that of buffers drawn each
-// time. With --table it prints tables in Markdown, of the least of the times.
+// time. With --table it prints tables in Markdown, of the least of the times; with --pixels and
+// --many only the second of them, bits on the GPU against the number of pixels, and the third,
+// triangles.
 
 #include "VoxelBenchmarks.h"
 
@@ -72,6 +76,14 @@ Voxelizer MakeParity(const Mesh& mesh)
   return voxelizer;
 }
 
+template <Maker Make>
+Voxelizer MakeBits(const Mesh& mesh)
+{
+  auto voxelizer = Make(mesh);
+  voxelizer->HostOutputOff();
+  return voxelizer;
+}
+
 struct Method
 {
   const char* Name;
@@ -89,6 +101,12 @@ const std::vector<Method> Methods = {
   { "Parity", MakeParity, true },
 };
 
+const std::vector<Method> MethodsOfBits = {
+  { "Bits", MakeBits<MakeDepth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SOLID>>, true },
+  { "SurfaceBits", MakeBits<MakeDepth<vtkDepthBufferVoxelizer::OUTPUT_MODE_SURFACE>>, true },
+  { "ParityBits", MakeBits<MakeParity>, true },
+};
+
 bool IsOfMany(const Method& method)
 {
   const std::string name = method.Name;
@@ -103,6 +121,10 @@ void RunOnce(const Method& method, vtkVoxelizer* voxelizer, const Mesh& mesh)
   }
   voxelizer->Modified();
   voxelizer->Update();
+  if (!voxelizer->GetHostOutput())
+  {
+    Finish();
+  }
 }
 
 void Time(benchmark::State& state, const Method& method, const Mesh& mesh)
@@ -121,12 +143,19 @@ void Time(benchmark::State& state, const Method& method, const Mesh& mesh)
     depth ? double(depth->GetNumberOfBufferDraws() - buffers) / double(state.iterations()) : 0.0;
 }
 
-std::string Milliseconds(const Method& method, const Mesh& mesh, int size, vtkIdType* voxels)
+std::string ToText(double milliseconds)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), milliseconds < 10.0 ? "%.1f" : "%.0f", milliseconds);
+  return text;
+}
+
+double Milliseconds(
+  const Method& method, const Mesh& mesh, int size, vtkIdType* voxels, int times = 7)
 {
   const auto voxelizer = method.Make(mesh);
   voxelizer->SetReferenceImage(MakeGrid(mesh, size));
-  voxelizer->Update();
-  constexpr int times = 7;
+  RunOnce(method, voxelizer, mesh);
   double least = 1e30;
   for (int i = 0; i < times; ++i)
   {
@@ -136,10 +165,11 @@ std::string Milliseconds(const Method& method, const Mesh& mesh, int size, vtkId
       std::chrono::steady_clock::now() - start;
     least = std::min(least, passed.count());
   }
-  *voxels = voxelizer->GetNumberOfFilledVoxels();
-  char text[32];
-  std::snprintf(text, sizeof(text), least < 10.0 ? "%.1f" : "%.0f", least);
-  return text;
+  if (voxels)
+  {
+    *voxels = voxelizer->GetNumberOfFilledVoxels();
+  }
+  return least;
 }
 
 std::map<std::string, Mesh> MeshesOfMany()
@@ -166,8 +196,8 @@ std::map<std::string, Mesh> MeshesOfMany()
   return meshes;
 }
 
-/// Voxels and times of the paper's objects, and times of ever more triangles.
-void PrintTables()
+/// Voxels and times of the paper's objects.
+void PrintObjects()
 {
   std::cout
     << "| object | triangles | size | voxels, solid | surface | parity | ms, solid | surface "
@@ -181,24 +211,58 @@ void PrintTables()
       std::string times;
       for (const Method& method : Methods)
       {
-        times += " " + Milliseconds(method, mesh, size, &voxels[method.Name]) + " |";
+        times += " " + ToText(Milliseconds(method, mesh, size, &voxels[method.Name])) + " |";
       }
       std::cout << "| " << name << " | " << mesh->GetNumberOfPolys() << " | " << size << "^3 | "
                 << voxels["Solid"] << " | " << voxels["Surface"] << " | " << voxels["Parity"]
                 << " |" << times << std::endl;
     }
   }
-  std::cout << "\n| mesh at 256^3 | triangles | ms, solid | one axis where it does | parity |\n"
+}
+
+/// Times against the number of pixels, and how they grow from size to size.
+void PrintPixels()
+{
+  std::cout << "| bits on the GPU, ms |";
+  for (const int size : Sizes)
+  {
+    std::cout << " " << size << "^3 |";
+  }
+  std::cout << " times, from size to size |\n| --- | --- | --- | --- | --- | --- |\n";
+  const auto objects = VoxelTestMeshes::PaperObjects();
+  for (const char* const object : { "Polyhedron", "Torus" })
+  {
+    for (const Method& method : MethodsOfBits)
+    {
+      std::cout << "| " << object << ", " << method.Name << " |";
+      std::string growth;
+      double last = 0.0;
+      for (const int size : Sizes)
+      {
+        constexpr int times = 25;
+        const double least = Milliseconds(method, objects.at(object), size, nullptr, times);
+        std::cout << " " << ToText(least) << " |";
+        growth += last > 0.0 ? " " + ToText(least / last) : "";
+        last = least;
+      }
+      std::cout << growth << " |" << std::endl;
+    }
+  }
+}
+
+/// Times of ever more triangles.
+void PrintMany()
+{
+  std::cout << "| mesh at 256^3 | triangles | ms, solid | one axis where it does | parity |\n"
                "| --- | --- | --- | --- | --- |\n";
   for (const auto& [name, mesh] : MeshesOfMany())
   {
     std::cout << "| " << name << " | " << mesh->GetNumberOfPolys() << " |";
     for (const Method& method : Methods)
     {
-      vtkIdType voxels = 0;
       if (IsOfMany(method))
       {
-        std::cout << " " << Milliseconds(method, mesh, SizeOfMany, &voxels) << " |";
+        std::cout << " " << ToText(Milliseconds(method, mesh, SizeOfMany, nullptr)) << " |";
       }
     }
     std::cout << std::endl;
@@ -208,9 +272,24 @@ void PrintTables()
 
 int main(int argc, char* argv[])
 {
-  if (argc == 2 && std::string(argv[1]) == "--table")
+  const std::string option = argc == 2 ? argv[1] : "";
+  if (option == "--table" || option == "--pixels" || option == "--many")
   {
-    PrintTables();
+    const bool all = option == "--table";
+    if (all)
+    {
+      PrintObjects();
+      std::cout << "\n";
+    }
+    if (all || option == "--pixels")
+    {
+      PrintPixels();
+      std::cout << "\n";
+    }
+    if (all || option == "--many")
+    {
+      PrintMany();
+    }
     return 0;
   }
   const auto add = [](const std::string& name, const Method& method, const Mesh& mesh,
@@ -222,9 +301,12 @@ int main(int argc, char* argv[])
   };
   for (const auto& [name, mesh] : VoxelTestMeshes::PaperObjects())
   {
-    for (const Method& method : Methods)
+    for (const auto* methods : { &Methods, &MethodsOfBits })
     {
-      add(name, method, mesh, Sizes);
+      for (const Method& method : *methods)
+      {
+        add(name, method, mesh, Sizes);
+      }
     }
   }
   for (const auto& [name, mesh] : MeshesOfMany())
