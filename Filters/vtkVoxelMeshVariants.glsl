@@ -1,14 +1,12 @@
 // The variants of a mesh that one dispatch does; goes before vtkVoxelMeshDisplacement.glsl.
 //
-// VARIANTS   defined when there are several. The map to index coordinates and the displacements are
-// then those
-//            of the variant in use; otherwise uniforms.
+// VARIANTS  defined when there are several: the map to index coordinates and the displacements then are
+//           those of the variant in use, else uniforms
 //
-// Variants   RGBA32UI buffer texture, nine texels a variant, see vtkVoxelMeshFetch.glsl for the
-// rows:
-//   0, 1     the first two rows of IndexFromWorld, in single precision
-//   2        FirstDisplacement and three words that are not used
-//   3 to 8   the three rows of IndexFromWorld, two texels each, each number's lower word first
+// Variants  RGBA32UI buffer texture, nine texels a variant, with the rows of vtkVoxelMeshFetch.glsl:
+//   0, 1    the first two rows of IndexFromWorld, in single precision
+//   2       FirstDisplacement and three words that are not used
+//   3 to 8  the three rows of IndexFromWorld, two texels each, each number's lower word first
 
 #ifdef VARIANTS
 
