@@ -212,7 +212,7 @@ void vtkTriangleDispatch::Run(const vtkVoxelMesh& mesh, const vtkVoxelGrid& grid
     program.Use();
     if (range.Variants)
     {
-      this->BindVariants(program, mesh, range);
+      BindVariants(program, mesh, range);
     }
     else
     {

@@ -77,7 +77,7 @@ public:
 
 private:
   void StartLaterStages();
-  void BindVariants(
+  static void BindVariants(
     vtkVoxelGL::Program& program, const vtkVoxelMesh& mesh, const VariantRange& range);
 
   vtkVoxelGL::Context Context;
