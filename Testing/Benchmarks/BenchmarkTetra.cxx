@@ -5,6 +5,7 @@
 //
 //   Batch/MODEL        a batch of unsigned char in host memory, 16 MiB or eight variants
 //   Rotated/MODEL      the same without displacements and scales
+//   Direct/MODEL       the variants of a batch as bits, given to a function and stored nowhere
 //   Shell/MODEL        shells by 26 neighbours
 //   Bits/MODEL         one variant that stays on the GPU
 //   First/MODEL        one variant of a mesh that was not there before
@@ -85,6 +86,29 @@ void Rotated(benchmark::State& state, const Mesh& mesh)
   voxelizer->SetScaleRange(1.0, 1.0);
   voxelizer->SetDisplacementAmplitude(0.0);
   RunBatches(state, voxelizer, VariantsOfBatch(state));
+}
+
+void Direct(benchmark::State& state, const Mesh& mesh)
+{
+  const auto voxelizer = MakeVoxelizer(mesh, state);
+  const int variants = VariantsOfBatch(state);
+  vtkTypeInt64 first = 0;
+  const auto visit = [](int, const vtkVoxelGrid&, const std::uint32_t* words)
+  {
+    benchmark::DoNotOptimize(words[0]);
+    return true;
+  };
+  const auto run = [&]
+  {
+    voxelizer->VisitBatch(first, variants, visit);
+    first += variants;
+  };
+  run();
+  for (auto _ : state)
+  {
+    run();
+  }
+  state.SetItemsProcessed(state.iterations() * variants);
 }
 
 void Shell(benchmark::State& state, const Mesh& mesh)
@@ -188,6 +212,7 @@ int main(int argc, char* argv[])
   {
     AddRows("Batch/" + name, Batch, mesh, sizes);
     AddRows("Rotated/" + name, Rotated, mesh, sizes);
+    AddRows("Direct/" + name, Direct, mesh, sizes);
     AddRows("Shell/" + name, Shell, mesh, sizes);
     AddRows("Bits/" + name, Bits, mesh, sizes);
     AddRows("First/" + name, First, mesh, sizes);

@@ -45,7 +45,9 @@ VOXEL_RATIOS = tuple(
 # Of BenchmarkTetra, whose rows have a batch of variants each.
 MODELS = ("10k", "100k", "265k")
 VARIANTS = (
-    ("Batch", "solids, one-model batch"), ("Rotated", "the same, rotated only as the rivals are"), ("Bits", "solids, direct, bits on the GPU"), ("Shell", "shells, batch"),
+    ("Batch", "solids, one-model batch"), ("Rotated", "the same, rotated only as the rivals are"),
+    ("Direct", "solids, direct, bits that are stored nowhere"), ("Bits", "solids, one at a time, bits on the GPU"),
+    ("Shell", "shells, batch"),
     ("Columns", "solids, Raster backend"), ("Layers", "solids, Raster backend by layers"),
     ("PyVista", "PyVista"), ("PythonStencil", "vtkPolyDataToImageStencil of PyVista's VTK"),
     ("Stencil", "vtkPolyDataToImageStencil"), ("trimesh", "trimesh"))
@@ -131,7 +133,7 @@ def main():
         (f"{model} triangles, {label}", {
             size: min(by_size(times, rival, model).get(size, float("inf")) for rival in rivals) / t
             for size, t in by_size(times, kind, model).items()})
-        for model in MODELS if by_size(times, "PyVista", model) for kind, label in VARIANTS[:3]])
+        for model in MODELS if by_size(times, "PyVista", model) for kind, label in VARIANTS[:4]])
     tables(times, "Hybrid", "thin surface by strategy", WAYS, ())
 
 
