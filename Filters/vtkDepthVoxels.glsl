@@ -252,8 +252,7 @@ uint kernel(uvec3 word)
 {
   ivec3 place = ivec3(word);
   uint bits;
-  int count = isMixed(place, bits) ? 1 : 0;
-  for (int once = 0; once < count; ++once)
+  if (isMixed(place, bits))
   {
     VOXELS voxels = VOXELS(bits);
 #ifdef HAS_X

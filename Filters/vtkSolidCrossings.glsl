@@ -28,8 +28,8 @@
 //   more voxel at the end of each column takes the crossings behind the last voxel.
 //
 // With VARIANTS: storage buffer 0 holds a grid a variant, one behind the other along z, SlicesPerGrid slices each;
-//   nothing is kept of what lies behind the last voxels. Each invocation goes through VariantsAtOnce variants,
-//   from FirstVariant on and up to EndVariant, and does for itself those in which its triangle may cover a
+//   nothing is kept of what lies behind the last voxels. Each invocation goes through VariantsAtOnce variants, 32 at
+//   most, from FirstVariant on and up to EndVariant, and does for itself those in which its triangle may cover a
 //   column, found as by SIEVE. What waits in the queue is variant * NumberOfTriangles + triangle.
 //
 // A row v crosses an edge when one end point lies at or before v and the other behind it. A column
@@ -287,8 +287,7 @@ void crossTriangle(StoredTriangle stored, uint item)
   rectangleOf(t, first, end);
   float columns = float(end.x - first.x) * float(end.y - first.y);
   bool isLarge = columns > float(DIRECT_COLUMNS);
-  // Renderers in software skip loops, but not branches.
-  for (bool waits = isLarge; waits; waits = false)
+  if (isLarge)
   {
     enqueueLarge(item);
   }

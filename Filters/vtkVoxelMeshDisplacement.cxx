@@ -22,7 +22,7 @@ vtkVoxelMeshDisplacement::Ring::Ring(
   , Longest(GetLongest(vectors, false))
   , LongestAlongNormals(GetLongest(vectors, true))
 {
-  std::vector<glm::vec4> padded(vectors.size(), glm::vec4(0.0f));
+  std::vector<glm::vec4> padded(vectors.size());
   std::transform(vectors.begin(), vectors.end(), padded.begin(),
     [](const glm::vec3& v) { return glm::vec4(v, 0.0f); });
   this->Vectors.Upload(context, GL_RGBA32F, padded.size() * sizeof(padded[0]), padded.data());
